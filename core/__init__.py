@@ -1,0 +1,73 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The mathematics of Framelet on plain numpy arrays; knows nothing of Blender, files or printing.
+
+The public names are imported when they are first used, so that enabling the extension costs nothing.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .denoising.denoise import denoise
+    from .denoising.report import DenoiseReport, DenoiseResult
+    from .frames import BANKS, FilterBank
+    from .metrics import Comparison, compare
+    from .noise import add_noise
+    from .settings import DEFAULT_PRESET, PRESETS, DenoiseSettings
+    from .stencils import Stencil, make_stencil
+    from .surface.connectivity import Connectivity, connect
+    from .surface.surface_mesh import SurfaceMesh
+    from .transform import analyze, reconstruct
+
+_HOMES = {
+    "BANKS": ".frames",
+    "Comparison": ".metrics",
+    "Connectivity": ".surface.connectivity",
+    "DEFAULT_PRESET": ".settings",
+    "DenoiseReport": ".denoising.report",
+    "DenoiseResult": ".denoising.report",
+    "DenoiseSettings": ".settings",
+    "FilterBank": ".frames",
+    "PRESETS": ".settings",
+    "Stencil": ".stencils",
+    "SurfaceMesh": ".surface.surface_mesh",
+    "add_noise": ".noise",
+    "analyze": ".transform",
+    "compare": ".metrics",
+    "connect": ".surface.connectivity",
+    "denoise": ".denoising.denoise",
+    "make_stencil": ".stencils",
+    "reconstruct": ".transform",
+}
+
+__all__ = [
+    "BANKS",
+    "DEFAULT_PRESET",
+    "PRESETS",
+    "Comparison",
+    "Connectivity",
+    "DenoiseReport",
+    "DenoiseResult",
+    "DenoiseSettings",
+    "FilterBank",
+    "Stencil",
+    "SurfaceMesh",
+    "add_noise",
+    "analyze",
+    "compare",
+    "connect",
+    "denoise",
+    "make_stencil",
+    "reconstruct",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    value = getattr(import_module(_HOMES[name], __name__), name)
+    globals()[name] = value
+    return value

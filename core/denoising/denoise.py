@@ -1,0 +1,139 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Denoise a surface: from positions and settings to clean positions and a report."""
+
+from __future__ import annotations
+
+from time import perf_counter
+
+import numpy as np
+from numpy.typing import DTypeLike, NDArray
+
+from ..blocks import Blocks
+from ..metrics import normal_angles
+from ..settings import DenoiseSettings
+from ..stencils import make_stencil
+from ..surface.checks import check_surface
+from ..surface.connectivity import Connectivity, connect
+from ..surface.geometry import face_normals, signed_volume
+from ..surface.surface_mesh import SurfaceMesh
+from .bilateral import bilateral_filter
+from .constraints import find_constraints
+from .report import Callback, DenoiseReport, DenoiseResult
+from .split_bregman import split_bregman
+
+
+def denoise(
+    surface: SurfaceMesh,
+    settings: DenoiseSettings | None = None,
+    *,
+    movable: NDArray[np.bool_] | None = None,
+    connectivity: Connectivity | None = None,
+    callback: Callback | None = None,
+    dtype: DTypeLike = np.float32,
+) -> DenoiseResult:
+    """Clean a noisy surface.
+
+    Parameters
+    ----------
+    surface : SurfaceMesh
+        The noisy surface; not modified.
+    settings : DenoiseSettings, optional
+        The algorithm and its parameters; by default the paper's Algorithm-Tri-2.
+    movable : ndarray, shape (N,), bool, optional
+        Vertices that may move; all by default. The others are used but stay where they are.
+    connectivity : Connectivity, optional
+        Neighborhoods of the mesh, if they are known already.
+    callback : callable, optional
+        `callback(fraction, change) -> bool` after each iteration; see `report.Callback`.
+    dtype : dtype, optional
+        Precision of the solver: float32 for speed, float64 for exactness.
+
+    Returns
+    -------
+    DenoiseResult
+        Positions in the dtype of the input; vertices that did not move have the same bits.
+
+    Raises
+    ------
+    ValueError
+        In one sentence, if the mesh has no faces, no size or positions that are not finite, or if `movable`
+        has the wrong shape or selects nothing.
+
+    Notes
+    -----
+    The solver works around the center of the mesh and in units of the mean edge length, so that results do
+    not depend on where the mesh is and how large. Displacements are added to the input, not positions scaled
+    back, so that no digit is lost where nothing moves.
+    """
+    began = perf_counter()
+    settings = settings or DenoiseSettings()
+    edge = check_surface(surface)
+    if movable is not None:
+        _check_movable(movable, surface.n_vertices)
+    dtype = np.dtype(dtype)
+    with Blocks(settings.threads) as blocks:
+        connectivity = connectivity or connect(surface, blocks)
+        positions = surface.vertices.astype(np.float64)
+        center = 0.5 * (positions.min(axis=0) + positions.max(axis=0))
+        noisy = np.ascontiguousarray(((positions - center) / edge).T, dtype)
+        constraints = find_constraints(surface, connectivity, settings.boundary, movable, dtype)
+        if settings.method == "BILATERAL":
+            n_irregular = 0
+            solved = bilateral_filter(noisy, surface, connectivity, settings, constraints, blocks, callback)
+        else:
+            stencil = make_stencil(surface, connectivity, settings.stencil, settings.boundary, blocks)
+            n_irregular = int(stencil.is_irregular.sum())
+            solved = split_bregman(noisy, stencil, settings, constraints, blocks, callback)
+    points, iterations, is_stopped = solved
+    displacement = (points.astype(np.float64) - noisy).T * edge
+    vertices = (positions + displacement).astype(surface.vertices.dtype)
+    report = _report(surface, connectivity, vertices, edge, n_irregular, iterations, is_stopped, began)
+    return DenoiseResult(vertices, report)
+
+
+def _check_movable(movable: NDArray[np.bool_], n_vertices: int) -> None:
+    """Raise ValueError unless the mask fits the mesh and selects something."""
+    if movable.shape != (n_vertices,) or movable.dtype != bool:
+        raise ValueError(
+            f"The mask of movable vertices is {movable.dtype} of shape {movable.shape}; expected bool ({n_vertices},)."
+        )
+    if not movable.any():
+        raise ValueError("No vertex may move; select at least one.")
+
+
+def _report(
+    surface: SurfaceMesh,
+    connectivity: Connectivity,
+    vertices: NDArray[np.floating],
+    edge: float,
+    n_irregular: int,
+    iterations: int,
+    is_stopped: bool,
+    began: float,
+) -> DenoiseReport:
+    """Account for a finished run."""
+    result = surface.with_vertices(vertices)
+    moved = np.linalg.norm(vertices.astype(np.float64) - surface.vertices, axis=1)
+    angles = normal_angles(face_normals(surface), face_normals(result))
+    volume_change = None
+    if connectivity.is_closed:
+        before = signed_volume(surface)
+        volume_change = (signed_volume(result) - before) / abs(before) if before else None
+    return DenoiseReport(
+        n_vertices=surface.n_vertices,
+        n_faces=surface.n_faces,
+        n_moved=int((moved > 0).sum()),
+        iterations=iterations,
+        is_stopped=is_stopped,
+        mean_edge_length=edge,
+        displacement_rms=float(np.sqrt(np.mean(moved**2))),
+        displacement_max=float(moved.max()),
+        flipped_faces=int((angles > 90.0).sum()),
+        volume_change=volume_change,
+        irregular_vertices=n_irregular,
+        boundary_vertices=int(connectivity.is_boundary.sum()),
+        non_manifold_vertices=int(connectivity.is_non_manifold.sum()),
+        loose_vertices=int(connectivity.is_loose.sum()),
+        seconds=perf_counter() - began,
+    )

@@ -1,0 +1,51 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a denoising run gives back: the vertices and an account of what was done."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Callback = Callable[[float, float], bool]
+"""`callback(fraction, change)`: share of the work done, 0 to 1, and rms motion of the last iteration in mean
+edge lengths; returns True to stop."""
+
+
+@dataclass(frozen=True)
+class DenoiseReport:
+    """An account of a run; lengths are in the units of the mesh."""
+
+    n_vertices: int
+    n_faces: int
+    n_moved: int
+    """Vertices that moved at all."""
+    iterations: int
+    """Iterations that ran, fewer than asked for if the tolerance was met or the run was stopped."""
+    is_stopped: bool
+    """True if the callback stopped the run."""
+    mean_edge_length: float
+    displacement_rms: float
+    displacement_max: float
+    flipped_faces: int
+    """Faces whose normal turned by more than a right angle."""
+    volume_change: float | None
+    """(after - before) / |before|; None unless the mesh is closed."""
+    irregular_vertices: int
+    """Vertices that took the stencil's rule for irregular vertices."""
+    boundary_vertices: int
+    non_manifold_vertices: int
+    loose_vertices: int
+    """Vertices without a face; they do not move."""
+    seconds: float
+
+
+@dataclass(frozen=True, eq=False)
+class DenoiseResult:
+    """Denoised positions, shape (N, 3), of the input's dtype, and the report."""
+
+    vertices: NDArray[np.floating]
+    report: DenoiseReport

@@ -1,0 +1,174 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Filter banks: masks on a lattice and the properties that the transforms rest on."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+EXACT = 1e-12
+"""Rounding that a property may be off by in float64."""
+
+
+@dataclass(frozen=True, eq=False)
+class FilterBank:
+    """Masks of a tight wavelet frame on a triangle or quad lattice.
+
+    Parameters
+    ----------
+    name : str
+        Name of the bank.
+    lattice : {"TRIANGLES", "QUADS"}
+        Lattice that the masks live on.
+    offsets : array_like, shape (T, 2), int
+        (row, column) of each tap, rows growing downwards; tap 0 is (0, 0), the vertex itself.
+    masks : array_like, shape (B, T)
+        The mask-matrix M, one mask a row: row 0 is the low-pass, which sums to 1, all others sum to 0.
+
+    Attributes
+    ----------
+    reconstruction : ndarray, shape (B,), float64
+        The row v of least norm with v M = delta_0, so that the vertex comes back from its coefficients.
+    is_tight : bool
+        True if the unitary extension principle (2.6), (2.7) holds.
+    is_diagonal : bool
+        True if M'M = diag(low-pass), the condition for tightness on irregular meshes.
+
+    Raises
+    ------
+    ValueError
+        If shapes, row sums, the sum of squares (2.6) or the existence of v fail; the message names which.
+    """
+
+    name: str
+    lattice: str
+    offsets: NDArray[np.int64]
+    masks: NDArray[np.float64]
+    reconstruction: NDArray[np.float64] = field(init=False)
+    is_tight: bool = field(init=False)
+    is_diagonal: bool = field(init=False)
+
+    def __post_init__(self) -> None:
+        def fix(name: str, value: object) -> None:
+            object.__setattr__(self, name, value)
+
+        offsets = np.array(self.offsets, np.int64)
+        masks = np.array(self.masks, np.float64)
+        offsets.flags.writeable = masks.flags.writeable = False
+        fix("offsets", offsets)
+        fix("masks", masks)
+        self._check_shapes()
+        self._check_row_sums()
+        own, shifted = unitary_extension_defects(offsets, masks)
+        if own > EXACT:
+            raise ValueError(f"{self.name}: the masks do not satisfy (2.6), sum |a|^2 = 1; they are off by {own:.2g}.")
+        fix("is_tight", bool(shifted <= EXACT))
+        fix("is_diagonal", bool(np.abs(masks.T @ masks - np.diag(masks[0])).max() <= EXACT))
+        fix("reconstruction", reconstruction_row(masks, self.name))
+
+    def _check_shapes(self) -> None:
+        if self.lattice not in ("TRIANGLES", "QUADS"):
+            raise ValueError(f"{self.name}: the lattice is {self.lattice!r}; it must be TRIANGLES or QUADS.")
+        if self.offsets.ndim != 2 or self.offsets.shape[1] != 2:
+            raise ValueError(f"{self.name}: the offsets have shape {self.offsets.shape}; expected (T, 2).")
+        if self.masks.ndim != 2 or self.masks.shape[1] != len(self.offsets):
+            raise ValueError(
+                f"{self.name}: the masks have shape {self.masks.shape}; expected (B, {len(self.offsets)})."
+            )
+        if not np.isfinite(self.masks).all():
+            raise ValueError(f"{self.name}: the masks hold numbers that are not finite.")
+        if tuple(self.offsets[0]) != (0, 0):
+            raise ValueError(f"{self.name}: tap 0 is at {tuple(self.offsets[0])}; it must be the vertex at (0, 0).")
+
+    def _check_row_sums(self) -> None:
+        expected = np.zeros(len(self.masks))
+        expected[0] = 1.0
+        off = np.abs(self.masks.sum(axis=1) - expected)
+        if off.max() > EXACT:
+            row = int(off.argmax())
+            raise ValueError(
+                f"{self.name}: mask {row} sums to {self.masks[row].sum():.6g}; it must sum to {expected[row]:g}."
+            )
+
+    @property
+    def n_taps(self) -> int:
+        """Number of taps, T."""
+        return self.masks.shape[1]
+
+    @property
+    def n_bands(self) -> int:
+        """Number of bands, B, the low-pass included."""
+        return self.masks.shape[0]
+
+    @property
+    def low_pass(self) -> NDArray[np.float64]:
+        """The low-pass mask a0, shape (T,)."""
+        return self.masks[0]
+
+    @property
+    def used_bands(self) -> NDArray[np.intp]:
+        """Bands that reach the surface: the low-pass and those whose entry in v is not zero (Remark 4.1)."""
+        return np.flatnonzero(np.abs(self.reconstruction) > EXACT)
+
+
+def unitary_extension_defects(offsets: ArrayLike, masks: ArrayLike) -> tuple[float, float]:
+    """Measure how far masks are from the unitary extension principle.
+
+    For all shifts m and each parity class of taps k, sum_l sum_k a_l[k] a_l[k + m] must be delta_m / 4; this
+    is (2.6) and (2.7) in the space domain, where it can be checked without sampling frequencies.
+
+    Parameters
+    ----------
+    offsets : array_like, shape (T, 2), int
+        Places of the taps.
+    masks : array_like, shape (B, T)
+        The masks.
+
+    Returns
+    -------
+    own, shifted : float
+        Largest errors of (2.6), the sum of squares, and of (2.7), its products with shifted spectra.
+    """
+    offsets = np.asarray(offsets, np.int64)
+    gram = np.asarray(masks, np.float64).T @ np.asarray(masks, np.float64)
+    shift = offsets[None, :, :] - offsets[:, None, :]
+    parity = offsets % 2
+    table: dict[tuple[int, int], NDArray[np.float64]] = {}
+    for k in range(len(offsets)):
+        for j in range(len(offsets)):
+            sums = table.setdefault(tuple(shift[k, j].tolist()), np.zeros((2, 2)))
+            sums[tuple(parity[k])] += gram[k, j]
+    own = shifted = 0.0
+    for m, sums in table.items():
+        own = max(own, abs(sums.sum() - (m == (0, 0))))
+        # (2.7) holds as well if and only if the four parity classes share the sum evenly.
+        shifted = max(shifted, float(np.abs(sums - sums.mean()).max()))
+    return float(own), shifted
+
+
+def reconstruction_row(masks: NDArray[np.float64], name: str = "masks") -> NDArray[np.float64]:
+    """Return the row v of least norm with v M = delta_0: (4.7), (5.8).
+
+    Parameters
+    ----------
+    masks : ndarray, shape (B, T)
+        The mask-matrix M.
+    name : str
+        What the error message calls it.
+
+    Raises
+    ------
+    ValueError
+        If no such row exists, so that the masks cannot tell the vertex from its neighbors.
+    """
+    delta = np.zeros(masks.shape[1])
+    delta[0] = 1.0
+    row = np.linalg.lstsq(masks.T, delta, rcond=None)[0]
+    row[np.abs(row) < EXACT] = 0.0
+    off = np.abs(row @ masks - delta).max()
+    if off > EXACT:
+        raise ValueError(f"{name}: no row v gives v M = delta_0 (nearest: off by {off:.2g}); add masks.")
+    return row

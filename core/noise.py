@@ -1,0 +1,45 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The paper's noise model (section 4.1): Gaussian displacements along the vertex normals."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .surface.checks import check_surface
+from .surface.geometry import vertex_normals
+from .surface.surface_mesh import SurfaceMesh
+
+PAPER_SIGMA = 0.2
+"""Standard deviation in the paper's experiments, in mean edge lengths (section 4.2)."""
+
+
+def add_noise(surface: SurfaceMesh, sigma: float = PAPER_SIGMA, seed: int = 0) -> NDArray[np.floating]:
+    """Displace the vertices of a surface along their normals by Gaussian noise.
+
+    Parameters
+    ----------
+    surface : SurfaceMesh
+        The clean surface; not modified.
+    sigma : float
+        Standard deviation in mean edge lengths.
+    seed : int
+        Seed of the random numbers; the same seed gives the same noise.
+
+    Returns
+    -------
+    ndarray, shape (N, 3), dtype of the vertices
+        Noisy positions. Loose vertices have no normal and stay.
+
+    Raises
+    ------
+    ValueError
+        If sigma is negative or not finite, or the mesh has no faces, no size or positions that are not finite.
+    """
+    if not 0.0 <= sigma < np.inf:
+        raise ValueError(f"The noise level is {sigma:g}; it must be zero or a positive number.")
+    edge = check_surface(surface)
+    offset = np.random.default_rng(seed).normal(0.0, sigma * edge, surface.n_vertices)
+    vertices = surface.vertices + offset[:, None] * vertex_normals(surface)
+    return vertices.astype(surface.vertices.dtype)

@@ -1,0 +1,224 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Settings of a denoising run: names, defaults, ranges, words and validation.
+
+They exist once. The dataclass below is what scripts pass to `framelet.core.denoise`; operator properties,
+scene settings and command line options are generated from its fields.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, replace
+from numbers import Integral, Real
+from typing import Any, NamedTuple
+
+
+class Choice(NamedTuple):
+    """One value of a setting that is chosen from a list."""
+
+    identifier: str
+    label: str
+    description: str
+
+
+@dataclass(frozen=True)
+class SettingInfo:
+    """What a user interface needs to know about one setting.
+
+    `soft_maximum` is where a slider ends; typing may go up to `maximum`. `symbol` is the paper's letter.
+    """
+
+    label: str
+    description: str
+    minimum: float | None = None
+    maximum: float | None = None
+    soft_maximum: float | None = None
+    choices: tuple[Choice, ...] = ()
+    symbol: str = ""
+
+
+def _setting(default: Any, label: str, description: str, **info: Any) -> Any:
+    return field(default=default, metadata={"info": SettingInfo(label, description, **info)})
+
+
+METHODS = (
+    Choice("POSITIONS", "Positions (paper)", "Split Bregman on vertex positions with a tight wavelet frame"),
+    Choice("BILATERAL", "Bilateral", "Bilateral mesh filtering (Fleishman et al. 2003), the paper's baseline"),
+)
+FRAMES = (
+    Choice("BOX_SPLINE_111", "Box Spline", "Three-direction linear box spline, seven masks: (3.5)"),
+    Choice("BOX_SPLINE_111_CANONICAL", "Box Spline, canonical", "The same low-pass with seven high-pass masks: (3.8)"),
+)
+STENCILS = (
+    Choice("MEAN", "Mean", "At irregular vertices every tap is the mean of the one-ring; smooths more, blurs edges"),
+    Choice("STRAIGHT", "Straight", "At irregular vertices neighbors are paired along the straightest lines; keeps edges"),
+)
+SHRINKAGES = (
+    Choice("BANDS", "Bands", "Each coordinate is shrunk by its norm over all bands (4.5); depends on the axes"),
+    Choice("VECTOR", "Vector", "Each band is shrunk by the length of its vector; does not depend on the axes"),
+    Choice("SCALAR", "Scalar", "Each number is shrunk by itself (5.5); depends on the axes"),
+)
+BOUNDARIES = (
+    Choice("FIXED", "Fixed", "Boundary vertices do not move"),
+    Choice("ALONG", "Along", "Boundaries are smoothed along themselves and are not pulled inwards; corners stay"),
+    Choice("FREE", "Free", "Boundary vertices move like all others, so that open borders shrink"),
+)
+
+
+@dataclass(frozen=True)
+class DenoiseSettings:
+    """Parameters of `framelet.core.denoise`.
+
+    Lengths (`lambda_`, `sigma_c`, `sigma_s`) are in units of the mean edge length of the mesh, so that the
+    same numbers mean the same on every mesh. The defaults are the paper's Algorithm-Tri-2.
+
+    Raises
+    ------
+    ValueError
+        On construction, in one sentence, if a value is out of range or not one of the choices.
+    """
+
+    method: str = _setting("POSITIONS", "Method", "How the surface is cleaned", choices=METHODS)
+    frame: str = _setting("BOX_SPLINE_111", "Frame", "The filter bank of the wavelet frame", choices=FRAMES)
+    stencil: str = _setting(
+        "STRAIGHT", "Stencil", "Which points fill the masks at irregular vertices", choices=STENCILS
+    )
+    shrinkage: str = _setting("VECTOR", "Shrinkage", "What is shrunk together", choices=SHRINKAGES)
+    levels: int = _setting(
+        1, "Levels", "Number of scales; a larger number also removes coarser noise", minimum=1, maximum=1
+    )
+    lambda_: float = _setting(
+        0.3,
+        "Smoothing",
+        "Weight of the frame coefficients, in mean edge lengths: larger removes more noise and more detail; "
+        "at convergence no vertex moves farther than 3 λ",
+        minimum=0.0,
+        maximum=100.0,
+        soft_maximum=2.0,
+        symbol="λ",
+    )
+    mu: float = _setting(
+        1.0,
+        "Penalty",
+        "Coupling of surface and coefficients: larger takes smaller, safer steps and needs more iterations",
+        minimum=1e-3,
+        maximum=1e4,
+        soft_maximum=20.0,
+        symbol="μ",
+    )
+    delta: float = _setting(
+        0.0,
+        "Feedback",
+        "How much of the removed detail comes back at each iteration: larger stays closer to the input",
+        minimum=0.0,
+        maximum=1.0,
+        symbol="δ",
+    )
+    iterations: int = _setting(
+        10,
+        "Iterations",
+        "Number of iterations: larger comes closer to the minimum, which is smoother, and takes longer",
+        minimum=1,
+        maximum=10000,
+        soft_maximum=50,
+    )
+    tolerance: float = _setting(
+        0.0,
+        "Tolerance",
+        "Stop early once an iteration moves the vertices by less than this (rms, in mean edge lengths): "
+        "larger stops sooner; 0 runs all iterations",
+        minimum=0.0,
+        maximum=1.0,
+        soft_maximum=0.01,
+    )
+    boundary: str = _setting("ALONG", "Boundary", "What happens at open borders", choices=BOUNDARIES)
+    sigma_c: float = _setting(
+        1.0,
+        "Neighborhood",
+        "Bilateral: width of the neighborhood, in mean edge lengths; larger smooths over a wider area",
+        minimum=0.1,
+        maximum=4.0,
+        symbol="σc",
+    )
+    sigma_s: float = _setting(
+        0.0,
+        "Height",
+        "Bilateral: heights up to this are treated as noise, in mean edge lengths; larger smooths over "
+        "higher features; 0 measures the heights of the mesh",
+        minimum=0.0,
+        maximum=10.0,
+        soft_maximum=1.0,
+        symbol="σs",
+    )
+    threads: int = _setting(
+        0,
+        "Threads",
+        "Number of threads: larger is faster up to the number of cores, the result is the same; 0 uses all cores",
+        minimum=0,
+        maximum=256,
+        soft_maximum=32,
+    )
+
+    def __post_init__(self) -> None:
+        for item in fields(self):
+            _check(item.name, item.metadata["info"], item.type, getattr(self, item.name))
+
+    def with_changes(self, **changes: Any) -> DenoiseSettings:
+        """Return a copy with some fields changed.
+
+        Raises
+        ------
+        ValueError
+            If a value is not allowed.
+        """
+        return replace(self, **changes)
+
+
+def _check(name: str, info: SettingInfo, kind: str, value: Any) -> None:
+    """Raise ValueError, with the value, unless it is allowed for this setting."""
+    label = f"{info.label} ({info.symbol})" if info.symbol else info.label
+    if info.choices:
+        names = [choice.identifier for choice in info.choices]
+        if value not in names:
+            raise ValueError(f"{label} is {value!r}; choose one of {', '.join(names)}.")
+        return
+    wanted = Integral if kind == "int" else Real
+    if not isinstance(value, wanted) or isinstance(value, bool):
+        raise ValueError(f"{label} is {value!r}; it must be a {'whole ' if kind == 'int' else ''}number.")
+    assert info.minimum is not None and info.maximum is not None, name
+    if not info.minimum <= value <= info.maximum:  # also refuses NaN
+        raise ValueError(f"{label} is {value:g}; it must be between {info.minimum:g} and {info.maximum:g}.")
+
+
+class Preset(NamedTuple):
+    """A named algorithm: what it is for, and the settings that differ from the defaults."""
+
+    label: str
+    description: str
+    changes: Mapping[str, Any]
+
+    @property
+    def settings(self) -> DenoiseSettings:
+        """The complete settings of this preset."""
+        return DenoiseSettings(**self.changes)
+
+
+PRESETS: Mapping[str, Preset] = {
+    "TRI_1": Preset(
+        "Tri-1",
+        "The paper's Algorithm-Tri-1: one-ring means, all bands shrunk together; even and soft",
+        {"stencil": "MEAN", "shrinkage": "BANDS", "lambda_": 0.5},
+    ),
+    "TRI_2": Preset(
+        "Tri-2",
+        "The paper's Algorithm-Tri-2: straight pairs, vector shrinkage; keeps edges better",
+        {"stencil": "STRAIGHT", "shrinkage": "VECTOR", "lambda_": 0.3},
+    ),
+    "BILATERAL": Preset(
+        "Bilateral",
+        "Bilateral mesh filtering with five iterations, the method that the paper compares with",
+        {"method": "BILATERAL", "iterations": 5},
+    ),
+}
+DEFAULT_PRESET = "TRI_2"

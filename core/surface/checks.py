@@ -1,0 +1,36 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The border at which a mesh is checked; behind it the arrays are trusted."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .geometry import mean_edge_length
+from .surface_mesh import SurfaceMesh
+
+
+def check_surface(surface: SurfaceMesh) -> float:
+    """Check that a mesh can be worked on, and return its mean edge length in scene units.
+
+    Raises
+    ------
+    ValueError
+        In one sentence, if the mesh has no vertices or faces, a position that is not finite, or no size.
+    """
+    if not surface.n_vertices:
+        raise ValueError("The mesh is empty; it needs vertices and faces.")
+    if not surface.n_faces:
+        raise ValueError(f"The mesh has {surface.n_vertices} vertices but no faces; only surfaces can be cleaned.")
+    is_finite = np.isfinite(surface.vertices).all(axis=1)
+    if not is_finite.all():
+        wrong = np.flatnonzero(~is_finite)
+        position = ", ".join(f"{value:g}" for value in surface.vertices[wrong[0]])
+        count = "is not a finite point" if len(wrong) == 1 else f"and {len(wrong) - 1} more are not finite points"
+        raise ValueError(f"Vertex {wrong[0]} at ({position}) {count}; delete or move it first.")
+    edge = mean_edge_length(surface)
+    if not edge > 0.0:
+        raise ValueError("All faces have shrunk to points; the mesh has no size to measure noise by.")
+    if not np.isfinite(edge):
+        raise ValueError("The mesh is too large to measure its edges; scale it down first.")
+    return edge
