@@ -77,5 +77,5 @@ def reconstruct(coefficients: NDArray[np.floating], bank: FilterBank) -> NDArray
     """
     if len(coefficients) != bank.n_bands:
         raise ValueError(f"There are {len(coefficients)} bands, but {bank.name} has {bank.n_bands}.")
-    row = bank.reconstruction.astype(coefficients.dtype)
+    row = bank.reconstruction[0].astype(coefficients.dtype)
     return np.einsum("b,bnc->nc", row, coefficients)

@@ -66,7 +66,7 @@ def split_bregman(
     dtype = noisy.dtype.type
     bands = bank.used_bands if settings.shrinkage in SEPARABLE else np.arange(bank.n_bands)
     product = MaskProduct(bank.masks[bands], dtype)
-    row = bank.reconstruction[bands].astype(dtype)
+    row = bank.reconstruction[0, bands].astype(dtype)
     threshold = settings.lambda_ / settings.mu
     mu, delta, damping = dtype(settings.mu), dtype(settings.delta), dtype(1.0 / (1.0 + settings.mu))
     n = stencil.n_vertices

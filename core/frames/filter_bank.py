@@ -12,6 +12,9 @@ from numpy.typing import ArrayLike, NDArray
 EXACT = 1e-12
 """Rounding that a property may be off by in float64."""
 
+CELL_CORNERS = ((0, 0), (0, 1), (1, 1), (1, 0))
+"""The central taps of a cell-centered bank, in order around the cell."""
+
 
 @dataclass(frozen=True, eq=False)
 class FilterBank:
@@ -21,17 +24,23 @@ class FilterBank:
     ----------
     name : str
         Name of the bank.
-    lattice : {"TRIANGLES", "QUADS"}
-        Lattice that the masks live on.
+    lattice : {"TRIANGLES", "QUADS", "ANY"}
+        Lattice that the masks live on; ANY for cell-centered masks that serve pairs of triangles as well.
     offsets : array_like, shape (T, 2), int
-        (row, column) of each tap, rows growing downwards; tap 0 is (0, 0), the vertex itself.
+        (row, column) of each tap, rows growing downwards. A bank is vertex-centered if tap 0 is (0, 0), the
+        vertex itself, and the taps lie evenly around it; it is cell-centered if they lie evenly around the
+        cell with the corners (0, 0), (0, 1), (1, 1), (1, 0), which are taps 0 to 3 in this order.
     masks : array_like, shape (B, T)
         The mask-matrix M, one mask a row: row 0 is the low-pass, which sums to 1, all others sum to 0.
 
     Attributes
     ----------
-    reconstruction : ndarray, shape (B,), float64
-        The row v of least norm with v M = delta_0, so that the vertex comes back from its coefficients.
+    is_cell_centered : bool
+        True if coefficients live on cells instead of vertices.
+    reconstruction : ndarray, shape (1 or 4, B), float64
+        For each central tap c the row v of least norm with v M = delta_c, so that the vertex at this tap
+        comes back from the coefficients. A vertex-centered bank has one central tap, tap 0. As M maps
+        constants to (1, 0, ..., 0), the low-pass entry of every such row is 1.
     is_tight : bool
         True if the unitary extension principle (2.6), (2.7) holds.
     is_diagonal : bool
@@ -47,6 +56,7 @@ class FilterBank:
     lattice: str
     offsets: NDArray[np.int64]
     masks: NDArray[np.float64]
+    is_cell_centered: bool = field(init=False)
     reconstruction: NDArray[np.float64] = field(init=False)
     is_tight: bool = field(init=False)
     is_diagonal: bool = field(init=False)
@@ -61,17 +71,18 @@ class FilterBank:
         fix("offsets", offsets)
         fix("masks", masks)
         self._check_shapes()
+        fix("is_cell_centered", self._find_centering())
         self._check_row_sums()
         own, shifted = unitary_extension_defects(offsets, masks)
         if own > EXACT:
             raise ValueError(f"{self.name}: the masks do not satisfy (2.6), sum |a|^2 = 1; they are off by {own:.2g}.")
         fix("is_tight", bool(shifted <= EXACT))
         fix("is_diagonal", bool(np.abs(masks.T @ masks - np.diag(masks[0])).max() <= EXACT))
-        fix("reconstruction", reconstruction_row(masks, self.name))
+        fix("reconstruction", reconstruction_rows(masks, 4 if self.is_cell_centered else 1, self.name))
 
     def _check_shapes(self) -> None:
-        if self.lattice not in ("TRIANGLES", "QUADS"):
-            raise ValueError(f"{self.name}: the lattice is {self.lattice!r}; it must be TRIANGLES or QUADS.")
+        if self.lattice not in ("TRIANGLES", "QUADS", "ANY"):
+            raise ValueError(f"{self.name}: the lattice is {self.lattice!r}; it must be TRIANGLES, QUADS or ANY.")
         if self.offsets.ndim != 2 or self.offsets.shape[1] != 2:
             raise ValueError(f"{self.name}: the offsets have shape {self.offsets.shape}; expected (T, 2).")
         if self.masks.ndim != 2 or self.masks.shape[1] != len(self.offsets):
@@ -80,8 +91,18 @@ class FilterBank:
             )
         if not np.isfinite(self.masks).all():
             raise ValueError(f"{self.name}: the masks hold numbers that are not finite.")
-        if tuple(self.offsets[0]) != (0, 0):
-            raise ValueError(f"{self.name}: tap 0 is at {tuple(self.offsets[0])}; it must be the vertex at (0, 0).")
+        if len({tuple(place) for place in self.offsets.tolist()}) < len(self.offsets):
+            raise ValueError(f"{self.name}: two taps have the same place; give each place once.")
+
+    def _find_centering(self) -> bool:
+        """Return whether the bank is cell-centered; raise ValueError if its taps are in the wrong order."""
+        reach = self.offsets.max(axis=0) + self.offsets.min(axis=0)
+        is_cell = bool((reach == 1).all())
+        centers = CELL_CORNERS if is_cell else ((0, 0),)
+        first = [tuple(place) for place in self.offsets[: len(centers)].tolist()]
+        if first != list(centers):
+            raise ValueError(f"{self.name}: the first taps are at {first}; they must be at {list(centers)}.")
+        return is_cell
 
     def _check_row_sums(self) -> None:
         expected = np.zeros(len(self.masks))
@@ -109,9 +130,15 @@ class FilterBank:
         return self.masks[0]
 
     @property
+    def reach(self) -> int:
+        """Largest row or column distance of a tap from the vertex, or from the nearest corner of the cell."""
+        beyond = self.offsets - 1 if self.is_cell_centered else self.offsets
+        return int(max(beyond.max(), -self.offsets.min()))
+
+    @property
     def used_bands(self) -> NDArray[np.intp]:
-        """Bands that reach the surface: the low-pass and those whose entry in v is not zero (Remark 4.1)."""
-        return np.flatnonzero(np.abs(self.reconstruction) > EXACT)
+        """Bands that reach the surface: the low-pass and those with an entry in v (Remark 4.1)."""
+        return np.flatnonzero(np.abs(self.reconstruction).max(axis=0) > EXACT)
 
 
 def unitary_extension_defects(offsets: ArrayLike, masks: ArrayLike) -> tuple[float, float]:
@@ -149,26 +176,31 @@ def unitary_extension_defects(offsets: ArrayLike, masks: ArrayLike) -> tuple[flo
     return float(own), shifted
 
 
-def reconstruction_row(masks: NDArray[np.float64], name: str = "masks") -> NDArray[np.float64]:
-    """Return the row v of least norm with v M = delta_0: (4.7), (5.8).
+def reconstruction_rows(masks: NDArray[np.float64], n_centers: int = 1, name: str = "masks") -> NDArray[np.float64]:
+    """Return the rows v of least norm with v M = delta_c for the first taps c: (4.7), (5.8).
 
     Parameters
     ----------
     masks : ndarray, shape (B, T)
         The mask-matrix M.
+    n_centers : int
+        Number of central taps.
     name : str
-        What the error message calls it.
+        What the error message calls the masks.
+
+    Returns
+    -------
+    ndarray, shape (n_centers, B), float64
 
     Raises
     ------
     ValueError
         If no such row exists, so that the masks cannot tell the vertex from its neighbors.
     """
-    delta = np.zeros(masks.shape[1])
-    delta[0] = 1.0
-    row = np.linalg.lstsq(masks.T, delta, rcond=None)[0]
-    row[np.abs(row) < EXACT] = 0.0
-    off = np.abs(row @ masks - delta).max()
+    delta = np.eye(n_centers, masks.shape[1])
+    rows = np.linalg.lstsq(masks.T, delta.T, rcond=None)[0].T
+    rows[np.abs(rows) < EXACT] = 0.0
+    off = np.abs(rows @ masks - delta).max()
     if off > EXACT:
         raise ValueError(f"{name}: no row v gives v M = delta_0 (nearest: off by {off:.2g}); add masks.")
-    return row
+    return rows
