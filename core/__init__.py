@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from .stencils import Stencil, make_stencil
     from .surface.connectivity import Connectivity, connect
     from .surface.surface_mesh import SurfaceMesh
-    from .transform import analyze, reconstruct
+    from .transform import FrameCoefficients, FrameTransform, adjoint, analyze, make_transform, synthesize
 
 _HOMES = {
     "BANKS": ".frames",
@@ -31,16 +31,20 @@ _HOMES = {
     "DenoiseResult": ".denoising.report",
     "DenoiseSettings": ".settings",
     "FilterBank": ".frames",
+    "FrameCoefficients": ".transform",
+    "FrameTransform": ".transform",
     "PRESETS": ".settings",
     "Stencil": ".stencils",
     "SurfaceMesh": ".surface.surface_mesh",
     "add_noise": ".noise",
+    "adjoint": ".transform",
     "analyze": ".transform",
     "compare": ".metrics",
     "connect": ".surface.connectivity",
     "denoise": ".denoising.denoise",
     "make_stencil": ".stencils",
-    "reconstruct": ".transform",
+    "make_transform": ".transform",
+    "synthesize": ".transform",
 }
 
 __all__ = [
@@ -53,15 +57,19 @@ __all__ = [
     "DenoiseResult",
     "DenoiseSettings",
     "FilterBank",
+    "FrameCoefficients",
+    "FrameTransform",
     "Stencil",
     "SurfaceMesh",
     "add_noise",
+    "adjoint",
     "analyze",
     "compare",
     "connect",
     "denoise",
     "make_stencil",
-    "reconstruct",
+    "make_transform",
+    "synthesize",
 ]
 
 

@@ -12,14 +12,15 @@ from numpy.typing import DTypeLike, NDArray
 from ..blocks import Blocks
 from ..metrics import normal_angles
 from ..settings import DenoiseSettings
-from ..stencils import make_stencil
 from ..surface.checks import check_surface
 from ..surface.connectivity import Connectivity, connect
 from ..surface.geometry import face_normals, signed_volume
 from ..surface.surface_mesh import SurfaceMesh
+from ..transform import choose_frame, make_transform
 from .bilateral import bilateral_filter
 from .constraints import find_constraints
 from .report import Callback, DenoiseReport, DenoiseResult
+from .shrinkage import SEPARABLE
 from .split_bregman import split_bregman
 
 
@@ -79,16 +80,25 @@ def denoise(
         noisy = np.ascontiguousarray(((positions - center) / edge).T, dtype)
         constraints = find_constraints(surface, connectivity, settings.boundary, movable, dtype)
         if settings.method == "BILATERAL":
-            n_irregular = 0
             solved = bilateral_filter(noisy, surface, connectivity, settings, constraints, blocks, callback)
         else:
-            stencil = make_stencil(surface, connectivity, settings.stencil, settings.boundary, blocks)
-            n_irregular = int(stencil.is_irregular.sum())
-            solved = split_bregman(noisy, stencil, settings, constraints, blocks, callback)
+            # Chosen on the normalized surface in full precision, so that rounding decides nothing.
+            transform = make_transform(
+                surface.with_vertices((positions - center) / edge),
+                choose_frame(settings.frame, connectivity),
+                settings.stencil,
+                settings.levels,
+                boundary=settings.boundary,
+                connectivity=connectivity,
+                blocks=blocks,
+                dtype=dtype,
+                only_used_bands=settings.shrinkage in SEPARABLE,
+            )
+            solved = split_bregman(noisy, transform, settings, constraints, blocks, callback)
     points, iterations, is_stopped = solved
     displacement = (points.astype(np.float64) - noisy).T * edge
     vertices = (positions + displacement).astype(surface.vertices.dtype)
-    report = _report(surface, connectivity, vertices, edge, n_irregular, iterations, is_stopped, began)
+    report = _report(surface, connectivity, vertices, edge, iterations, is_stopped, began)
     return DenoiseResult(vertices, report)
 
 
@@ -107,7 +117,6 @@ def _report(
     connectivity: Connectivity,
     vertices: NDArray[np.floating],
     edge: float,
-    n_irregular: int,
     iterations: int,
     is_stopped: bool,
     began: float,
@@ -131,7 +140,7 @@ def _report(
         displacement_max=float(moved.max()),
         flipped_faces=int((angles > 90.0).sum()),
         volume_change=volume_change,
-        irregular_vertices=n_irregular,
+        irregular_vertices=int(connectivity.is_irregular().sum()),
         boundary_vertices=int(connectivity.is_boundary.sum()),
         non_manifold_vertices=int(connectivity.is_non_manifold.sum()),
         loose_vertices=int(connectivity.is_loose.sum()),

@@ -38,10 +38,16 @@ def shrink(coefficients: NDArray[np.floating], threshold: float, kind: str) -> N
     return coefficients - clipped(coefficients, threshold, kind)
 
 
-def clipped(coefficients: NDArray[np.floating], threshold: float, kind: str) -> NDArray[np.floating]:
+def clipped(
+    coefficients: NDArray[np.floating],
+    threshold: float,
+    kind: str,
+    group_starts: NDArray[np.intp] | None = None,
+) -> NDArray[np.floating]:
     """Return what shrinkage takes away, y - T_nu(y): the coefficients cut off at norm nu, shape (3, H, n).
 
-    It is the projection onto the ball of radius nu in the dual norm, and the next b of split Bregman.
+    It is the projection onto the ball of radius nu in the dual norm, and the next b of split Bregman. With
+    `group_starts`, VECTOR takes the bands from each start to the next as one longer vector.
     """
     if kind not in SHRINKAGES:
         raise ValueError(f"The shrinkage is {kind!r}; choose one of {', '.join(SHRINKAGES)}.")
@@ -56,6 +62,9 @@ def clipped(coefficients: NDArray[np.floating], threshold: float, kind: str) -> 
     norm = parts[0] * parts[0]
     for part in parts[1:]:
         norm += part * part
+    if axis == 0 and group_starts is not None:
+        sizes = np.diff(group_starts, append=len(norm))
+        norm = np.repeat(np.add.reduceat(norm, group_starts, axis=0), sizes, axis=0)
     np.sqrt(norm, out=norm)
     np.maximum(norm, max(nu, np.finfo(nu.dtype).tiny), out=norm)
     np.divide(nu, norm, out=norm)

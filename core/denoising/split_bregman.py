@@ -8,33 +8,32 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
-from ..frames import BANKS
-from ..frames.mask_product import MaskProduct
 from ..settings import DenoiseSettings
-from ..stencils import Stencil
+from ..transform import FrameTransform
+from ..transform.level import Chunk, Level
 from .constraints import Constraints
 from .report import Callback
-from .shrinkage import SEPARABLE, clipped
+from .shrinkage import clipped
 
 
 def split_bregman(
     noisy: NDArray[np.floating],
-    stencil: Stencil,
+    transform: FrameTransform,
     settings: DenoiseSettings,
     constraints: Constraints,
     blocks: Blocks,
     callback: Callback | None = None,
 ) -> tuple[NDArray[np.floating], int, bool]:
-    """Minimize 1/2 |S - S~|^2 + lambda |W S|_1 (4.1), with the row v in place of the adjoint.
+    """Minimize 1/2 |S - S~|^2 + lambda |W S|_1 (4.1).
 
     Parameters
     ----------
     noisy : ndarray, shape (3, N)
         Noisy positions S~ in mean edge lengths, coordinates in rows; not modified.
-    stencil : Stencil
-        Frozen stencils, chosen on the noisy surface.
+    transform : FrameTransform
+        W with frozen stencils, chosen on the noisy surface, in the dtype of `noisy`.
     settings : DenoiseSettings
-        Frame, shrinkage, lambda, mu, delta, iterations, tolerance.
+        Shrinkage, lambda, mu, delta, iterations, tolerance.
     constraints : Constraints
         Vertices that may not move freely.
     blocks : Blocks
@@ -55,64 +54,62 @@ def split_bregman(
     -----
     One iteration of (4.10) is::
 
-        S <- (S~ - c + mu v (d - b)) / (1 + mu)
+        S <- (S~ - c + mu V(d - b)) / (1 + mu)
         d <- T(W S + b),  b <- b + W S - d,  c <- c + delta (S - S~)
 
-    With y = W S + b it holds that d - b = 2 d - y = y - 2 b for the new b, so that only b and S are kept. The
-    low-pass is not shrunk, so its b stays zero. From the start S = S~, d = W S~, b = c = 0 the first S is S~
-    itself, which is not computed.
+    V rebuilds a surface: by the row v in the paper's transforms, by the true adjoint, as in (4.6), where masks
+    fit the valence. With y = W S + b it holds that d - b = 2 d - y = y - 2 b for the new b, so that only b and
+    S are kept. The low-pass is not shrunk, so its b stays zero. From the start S = S~, d = W S~, b = c = 0 the
+    first S is S~ itself, which is not computed.
     """
-    bank = BANKS[settings.frame]
     dtype = noisy.dtype.type
-    bands = bank.used_bands if settings.shrinkage in SEPARABLE else np.arange(bank.n_bands)
-    product = MaskProduct(bank.masks[bands], dtype)
-    row = bank.reconstruction[0, bands].astype(dtype)
-    threshold = settings.lambda_ / settings.mu
     mu, delta, damping = dtype(settings.mu), dtype(settings.delta), dtype(1.0 / (1.0 + settings.mu))
-    n = stencil.n_vertices
-
-    current = np.empty((3, stencil.n_points), dtype)
-    following = np.empty_like(current)
-    current[:, :n] = noisy
-    residual = np.zeros((3, len(bands) - 1, n), dtype)  # b of the high bands
+    visits = [_Shrinkage(level, settings) for level in transform.levels]
+    n = noisy.shape[1]
+    current = noisy.copy()
     drift = np.zeros_like(noisy) if settings.delta > 0 else None  # c
 
-    def kernel(start: int, stop: int) -> float:
-        part = slice(start, stop)
-        shrunk = product(stencil.gather(current, start, stop))  # W S, becomes y - 2 b
-        high = shrunk[:, 1:]
-        high += residual[:, :, part]
-        cut = clipped(high, threshold, settings.shrinkage)
-        residual[:, :, part] = cut
-        cut += cut
-        high -= cut
-        moved = _weighted_sum(shrunk, row)
-        moved *= mu
-        moved += noisy[:, part]
-        if drift is not None:
-            drift[:, part] += delta * (current[:, part] - noisy[:, part])
-            moved -= drift[:, part]
-        moved *= damping
-        following[:, part] = moved
-        moved -= current[:, part]
-        return float(np.einsum("cn,cn->", moved, moved, dtype=np.float64))
-
     for iteration in range(2, settings.iterations + 1):
-        stencil.fill_virtual(current, blocks)
-        squares = blocks.run(kernel, n)
-        constraints.apply(following[:, :n], noisy)
-        current, following = following, current
+        moved = transform.shrink_and_rebuild(current, visits)
+
+        def update(start: int, stop: int, current: NDArray[np.floating] = current, moved: NDArray = moved) -> float:
+            part = slice(start, stop)
+            block = moved[:, part]
+            block *= mu
+            block += noisy[:, part]
+            if drift is not None:
+                drift[:, part] += delta * (current[:, part] - noisy[:, part])
+                block -= drift[:, part]
+            block *= damping
+            step = block - current[:, part]
+            return float(np.einsum("cn,cn->", step, step, dtype=np.float64))
+
+        squares = blocks.run(update, n)
+        constraints.apply(moved, noisy)
+        current = moved
         change = float(np.sqrt(sum(squares) / max(n, 1)))
         if callback is not None and callback((iteration - 1) / (settings.iterations - 1), change):
-            return current[:, :n], iteration, True
+            return current, iteration, True
         if change < settings.tolerance:
-            return current[:, :n], iteration, False
-    return current[:, :n], settings.iterations, False
+            return current, iteration, False
+    return current, settings.iterations, False
 
 
-def _weighted_sum(bands: NDArray[np.floating], row: NDArray[np.floating]) -> NDArray[np.floating]:
-    """Return v . alpha, shape (3, n), of coefficients (3, B, n), passing over zero entries of v."""
-    total = bands[:, 0] * row[0]
-    for band in np.flatnonzero(row[1:]) + 1:
-        total += bands[:, band] if row[band] == 1 else row[band] * bands[:, band]
-    return total
+class _Shrinkage:
+    """Turns the bands W S of one level into y - 2 b, and keeps b."""
+
+    def __init__(self, level: Level, settings: DenoiseSettings) -> None:
+        self._groups = [level.group_starts(index) for index in range(len(level.sites))]
+        self._residual: list[Chunk | None] = [None] * len(level.sites)  # b, zero at first
+        self._threshold = settings.lambda_ / settings.mu
+        self._kind = settings.shrinkage
+
+    def __call__(self, index: int, high: Chunk) -> None:
+        """Shrink the high bands of one chunk, in place; a `Visit`."""
+        residual = self._residual[index]
+        if residual is not None:
+            high += residual
+        cut = clipped(high, self._threshold, self._kind, self._groups[index])
+        self._residual[index] = cut
+        high -= cut
+        high -= cut

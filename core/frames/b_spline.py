@@ -43,7 +43,8 @@ def b_spline(order: int) -> FilterBank:
     masks = np.array([np.outer(rows, columns).ravel() for rows in filters for columns in filters])
     central = CELL_CORNERS if order % 2 else TAPS_9
     taps = [*central, *(place for place in places if place not in central)]
-    return FilterBank(f"B_SPLINE_{order}", "QUADS", taps, masks[:, [places.index(tap) for tap in taps]])
+    lattice = "ANY" if order % 2 else "QUADS"
+    return FilterBank(f"B_SPLINE_{order}", lattice, taps, masks[:, [places.index(tap) for tap in taps]])
 
 
 def _filter(order: int, n: int) -> np.ndarray:

@@ -12,58 +12,42 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..surface.connectivity import Connectivity
-from .stencil import StencilBuilder
+from .builder import Place, StencilBuilder
+from .members import Members
+
+
+def set_rim_pair(
+    builder: StencilBuilder, members: Members, wanted: NDArray[np.intp], first: Place, last: Place
+) -> None:
+    """Put the two members along the border, the ends of open rings, under a pair of opposite taps."""
+    offset = members.connectivity.ring_offset
+    builder.set(first, wanted, members.near[offset[wanted]])
+    builder.set(last, wanted, members.near[offset[wanted + 1] - 1])
+
+
+def set_mirrored(
+    builder: StencilBuilder, place: Place, wanted: NDArray[np.intp], points: NDArray[np.integer]
+) -> None:
+    """Put points under a tap and their mirror images under the opposite one, as far as there are taps."""
+    opposite = (-place[0], -place[1])
+    builder.set(place, wanted, points)
+    if builder.has(opposite):
+        builder.set(opposite, wanted, builder.add_mirrored(wanted, points))
+
+
+def inner_means(
+    builder: StencilBuilder, values: NDArray[np.int32], connectivity: Connectivity, wanted: NDArray[np.intp]
+) -> NDArray[np.int32]:
+    """Return means over what lies between the ends of open rings; the vertex itself where nothing does."""
+    counts = connectivity.valence[wanted] - 2
+    points, is_filled = builder.add_means(values, connectivity.ring_offset[wanted] + 1, counts)
+    result = wanted.astype(np.int32)
+    result[is_filled] = points
+    return result
+
 
 CORNER_TURN = 50.0
 """Degrees by which a border turns within the surface, from edge to edge, for a vertex to count as a corner."""
-
-
-def fill_along_boundary(
-    builder: StencilBuilder, connectivity: Connectivity, wanted: NDArray[np.intp], *, is_mean: bool
-) -> None:
-    """Fill the six slots of manifold boundary vertices.
-
-    The boundary neighbors take the pair (1, 4). Of the ring between them two points take slots 2 and 3: at
-    regular valence the two that are there, else their mean (`is_mean`) or those a third from either end. Their
-    mirror images take slots 5 and 6.
-
-    Parameters
-    ----------
-    builder : StencilBuilder
-        Receives slots and mirrored points.
-    connectivity : Connectivity
-        One-rings; those of `wanted` are open.
-    wanted : ndarray, shape (n,), intp
-        Vertices to fill.
-    is_mean : bool
-        Whether orbits are replaced by their means.
-    """
-    inside = connectivity.valence[wanted] - 2
-    builder.slots[0, wanted] = connectivity.boundary_neighbors[wanted, 0]
-    builder.slots[3, wanted] = connectivity.boundary_neighbors[wanted, 1]
-    begin = connectivity.ring_offset[wanted]
-    chosen = inside > 0
-    if is_mean:
-        averaged = inside > 2
-        _fill_mirrored_means(builder, connectivity, wanted[averaged])
-        chosen &= ~averaged
-    center, begin, inside = wanted[chosen], begin[chosen], inside[chosen]
-    near = np.maximum((inside + 1) // 3, 1)
-    for row, place in ((1, near), (2, inside + 1 - near)):
-        point = connectivity.ring[begin + place]
-        builder.slots[row, center] = point
-        builder.slots[row + 3, center] = builder.add_combined(np.stack((center, point)), (2.0, -1.0))
-
-
-def _fill_mirrored_means(
-    builder: StencilBuilder, connectivity: Connectivity, wanted: NDArray[np.intp]
-) -> None:
-    """Fill slots 2, 3 with the mean of the inner ring and slots 5, 6 with its mirror image."""
-    counts = (connectivity.valence[wanted] - 2).astype(np.int64)
-    begin = np.repeat(connectivity.ring_offset[wanted] + 1 - (np.cumsum(counts) - counts), counts)
-    members = connectivity.ring[begin + np.arange(len(begin))]
-    builder.slots[1:3, wanted] = builder.add_ragged(members, counts)
-    builder.slots[4:6, wanted] = builder.add_mirrored_means(wanted, members, counts)
 
 
 def boundary_corners(

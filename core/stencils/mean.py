@@ -4,27 +4,44 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 from numpy.typing import NDArray
 
 from ..surface.connectivity import Connectivity
-from .stencil import StencilBuilder
+from .builder import Place, StencilBuilder
 
 
-def fill_mean(builder: StencilBuilder, connectivity: Connectivity, wanted: NDArray[np.intp]) -> None:
-    """Fill all six slots of vertices with the mean of their one-ring.
+def fill_mean(
+    builder: StencilBuilder,
+    values: NDArray[np.int32],
+    connectivity: Connectivity,
+    wanted: NDArray[np.intp],
+    places: Iterable[Place],
+) -> NDArray[np.intp]:
+    """Put the mean over the members of an orbit under all its taps.
 
     Parameters
     ----------
     builder : StencilBuilder
         Receives slots and means.
+    values : ndarray, shape (R,), int32
+        Near or far members in the layout of the one-rings.
     connectivity : Connectivity
-        One-rings.
+        The one-rings.
     wanted : ndarray, shape (n,), intp
         Vertices to fill; those with fewer than two neighbors are passed over and so do not move.
+    places : iterable of (row, column)
+        The orbit.
+
+    Returns
+    -------
+    ndarray of intp
+        Those of `wanted` that have two neighbors or more but no member in this orbit.
     """
     wanted = wanted[connectivity.valence[wanted] >= 2]
-    counts = connectivity.valence[wanted].astype(np.int64)
-    begin = np.repeat(connectivity.ring_offset[wanted] - (np.cumsum(counts) - counts), counts)
-    members = connectivity.ring[begin + np.arange(len(begin))]
-    builder.slots[:, wanted] = builder.add_ragged(members, counts)
+    points, is_filled = builder.add_means(values, connectivity.ring_offset[wanted], connectivity.valence[wanted])
+    for place in places:
+        builder.set(place, wanted[is_filled], points)
+    return wanted[~is_filled]

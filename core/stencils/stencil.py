@@ -19,37 +19,44 @@ from ..blocks import Blocks
 
 @dataclass(frozen=True, eq=False)
 class Stencil:
-    """Taps of every vertex.
+    """Taps of every site: of every vertex, or of every cell for cell-centered masks.
 
     Attributes
     ----------
-    slots : ndarray, shape (T - 1, N), int32
-        Points of taps 1 to T - 1; tap 0 is the vertex itself. Numbers from N on are virtual points.
+    n_vertices : int
+        Number of vertices, N.
+    slots : ndarray, shape (T, n_sites), int32
+        Point under each tap. Numbers from N on are virtual points. With `is_vertex_centered`, site k is
+        vertex k and tap 0 is the vertex itself.
+    is_vertex_centered : bool
+        True if the sites are the vertices.
     virtual_offset : ndarray, shape (X + 1,), int64
         Virtual point x combines the vertices `virtual_vertex[virtual_offset[x]:virtual_offset[x + 1]]`.
     virtual_vertex : ndarray, shape (Y,), int32
         Vertices of the combinations.
     virtual_weight : ndarray, shape (Y,), float64
         Their weights, which sum to 1 for each virtual point.
-    is_irregular : ndarray, shape (N,), bool
-        Vertices with faces that took a rule for irregular vertices, boundary ones included.
+    is_irregular : ndarray, shape (n_sites,), bool
+        Sites that took a rule for irregular ones, boundary ones included.
     """
 
+    n_vertices: int
     slots: NDArray[np.int32]
+    is_vertex_centered: bool
     virtual_offset: NDArray[np.int64]
     virtual_vertex: NDArray[np.int32]
     virtual_weight: NDArray[np.float64]
     is_irregular: NDArray[np.bool_]
 
     @property
-    def n_vertices(self) -> int:
-        """Number of vertices, N."""
+    def n_sites(self) -> int:
+        """Number of sites."""
         return self.slots.shape[1]
 
     @property
     def n_taps(self) -> int:
         """Number of taps, T, the vertex included."""
-        return len(self.slots) + 1
+        return len(self.slots)
 
     @property
     def n_points(self) -> int:
@@ -88,70 +95,14 @@ class Stencil:
         return points
 
     def gather(self, points: NDArray[np.floating], start: int, stop: int) -> NDArray[np.floating]:
-        """Return the data-matrix of vertices start to stop, shape (3, T, stop - start)."""
+        """Return the data-matrix of sites start to stop, shape (3, T, stop - start)."""
+        if not self.is_vertex_centered:
+            return points.take(self.slots[:, start:stop], axis=1, mode="clip")
         matrix = np.empty((3, self.n_taps, stop - start), points.dtype)
-        matrix[:, 0] = points[:, start:stop]
-        matrix[:, 1:] = points.take(self.slots[:, start:stop], axis=1, mode="clip")
+        matrix[:, 0] = points[:, start:stop]  # tap 0 needs no look-up
+        matrix[:, 1:] = points.take(self.slots[1:, start:stop], axis=1, mode="clip")
         return matrix
 
     def data_matrix(self, vertices: NDArray[np.floating]) -> NDArray[np.floating]:
-        """Return the whole data-matrix D = C(S) of section 3.1, shape (T, N, 3)."""
-        return self.gather(self.extended(vertices), 0, self.n_vertices).transpose(1, 2, 0)
-
-
-class StencilBuilder:
-    """Collects slots and virtual points, then makes the `Stencil`.
-
-    Slots that are never set hold the vertex itself: such taps carry no detail, and the vertex stays.
-    """
-
-    def __init__(self, n_vertices: int, n_taps: int) -> None:
-        self.slots = np.repeat(np.arange(n_vertices, dtype=np.int32)[None], n_taps - 1, axis=0)
-        self.is_irregular = np.zeros(n_vertices, bool)
-        self._n_points = n_vertices
-        self._counts: list[NDArray[np.int64]] = []
-        self._vertices: list[NDArray[np.int32]] = []
-        self._weights: list[NDArray[np.float64]] = []
-
-    def add_ragged(self, vertices: NDArray[np.int32], counts: NDArray[np.integer]) -> NDArray[np.int32]:
-        """Add means of consecutive groups of vertices; return the new points' numbers, shape (n,)."""
-        counts = counts.astype(np.int64)
-        self._counts.append(counts)
-        self._vertices.append(vertices.astype(np.int32))
-        self._weights.append(np.repeat(1.0 / counts, counts))
-        return self._number(len(counts))
-
-    def add_mirrored_means(
-        self, centers: NDArray[np.integer], vertices: NDArray[np.int32], counts: NDArray[np.integer]
-    ) -> NDArray[np.int32]:
-        """Add the mirror images 2 V - P of means P as in `add_ragged`, at the centers V, shape (n,)."""
-        counts = counts.astype(np.int64)
-        place = np.cumsum(counts) - counts
-        self._counts.append(counts + 1)
-        self._vertices.append(np.insert(vertices, place, centers).astype(np.int32))
-        self._weights.append(np.insert(np.repeat(-1.0 / counts, counts), place, 2.0))
-        return self._number(len(counts))
-
-    def add_combined(self, vertices: NDArray[np.integer], weights: tuple[float, ...]) -> NDArray[np.int32]:
-        """Add combinations of r vertices each, given as shape (r, n); return the new points' numbers, (n,)."""
-        n = vertices.shape[1]
-        self._counts.append(np.full(n, len(weights), np.int64))
-        self._vertices.append(vertices.T.astype(np.int32).ravel())
-        self._weights.append(np.tile(weights, n))
-        return self._number(n)
-
-    def _number(self, n: int) -> NDArray[np.int32]:
-        numbers = np.arange(self._n_points, self._n_points + n, dtype=np.int32)
-        self._n_points += n
-        return numbers
-
-    def finish(self) -> Stencil:
-        """Return the stencil."""
-        counts = np.concatenate([np.zeros(1, np.int64), *self._counts])
-        return Stencil(
-            self.slots,
-            np.cumsum(counts),
-            np.concatenate([np.zeros(0, np.int32), *self._vertices]),
-            np.concatenate([np.zeros(0), *self._weights]),
-            self.is_irregular,
-        )
+        """Return the whole data-matrix D = C(S) of section 3.1, shape (T, n_sites, 3)."""
+        return self.gather(self.extended(vertices), 0, self.n_sites).transpose(1, 2, 0)

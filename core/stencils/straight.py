@@ -4,15 +4,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
-from ..surface.connectivity import Connectivity
+from .builder import Place, StencilBuilder
 from .mean import fill_mean
-from .stencil import StencilBuilder
+from .members import Members
 
 HIGHEST_VALENCE = 1024
 """Above it the search over all pairs would take more memory than such a fan is worth; MEAN serves there."""
@@ -26,11 +27,12 @@ Rounding then does not decide on symmetric meshes, so that rotating one does not
 def fill_straight(
     builder: StencilBuilder,
     vertices: NDArray[np.floating],
-    connectivity: Connectivity,
+    members: Members,
     wanted: NDArray[np.intp],
+    places: Sequence[Place],
     blocks: Blocks,
 ) -> NDArray[np.intp]:
-    """Fill the six slots of irregular vertices with straight pairs.
+    """Fill the six taps of irregular vertices with straight pairs.
 
     Valence 5 and more: three pairs of ring vertices with the largest angles at the vertex. Valence 4 and 3:
     the ring is completed to six by midpoints of its longest edges, and opposite is three places on. Where the
@@ -43,10 +45,12 @@ def fill_straight(
         Receives slots and midpoints.
     vertices : ndarray, shape (N, 3)
         Positions on which angles and lengths are measured.
-    connectivity : Connectivity
-        One-rings.
+    members : Members
+        One-rings, at level 0 or dilated.
     wanted : ndarray, shape (n,), intp
-        Vertices to fill.
+        Vertices to fill; all have near members.
+    places : sequence of six (row, column)
+        The ring of taps; opposite is three places on.
     blocks : Blocks
         Threads to work on.
 
@@ -56,11 +60,12 @@ def fill_straight(
         Those of `wanted` that the rule cannot serve: fewer than three neighbors, fewer than four without
         edges between them, or more than `HIGHEST_VALENCE`.
     """
+    connectivity = members.connectivity
     valence = connectivity.valence[wanted]
     has_ring_edges = connectivity.all_triangles[wanted] & ~connectivity.is_non_manifold[wanted]
     is_completable = has_ring_edges & (valence >= 3) & (valence < 5)
     is_pairable = (valence >= 4) & (valence <= HIGHEST_VALENCE) & ~is_completable
-    fill_mean(builder, connectivity, wanted[is_pairable & (valence == 4)])  # for the third pair
+    fill_mean(builder, members.near, connectivity, wanted[is_pairable & (valence == 4)], places)  # third pair
     for value in np.unique(valence[is_pairable]):
         group = wanted[is_pairable & (valence == value)]
         # Keep the table of pairs of one block in the cache.
@@ -68,34 +73,63 @@ def fill_straight(
 
         def kernel(start: int, stop: int, group: NDArray[np.intp] = group, value: int = int(value)) -> None:
             part = group[start:stop]
-            pairs = _straight_pairs(vertices, part, connectivity.ring_rows(part, value))
+            pairs = straight_pairs(vertices, part, members.near_rows(part, value), min(value // 2, 3))
             n_pairs = len(pairs) // 2
-            builder.slots[:n_pairs, part] = pairs[:n_pairs]
-            builder.slots[3 : 3 + n_pairs, part] = pairs[n_pairs:]
+            for pair in range(n_pairs):
+                builder.set(places[pair], part, pairs[pair])
+                builder.set(places[pair + 3], part, pairs[pair + n_pairs])
 
         step.run(kernel, len(group))
     for value in (4, 3):
         group = wanted[is_completable & (valence == value)]
         if len(group):
-            builder.slots[:, group] = _completed_rings(builder, vertices, connectivity.ring_rows(group, value))
+            completed = complete_rings(builder, vertices, members.near_rows(group, value), 6)
+            for place, points in zip(places, completed, strict=True):
+                builder.set(place, group, points)
     return wanted[~is_pairable & ~is_completable]
 
 
-def _straight_pairs(
-    vertices: NDArray[np.floating], centers: NDArray[np.intp], rings: NDArray[np.int32]
+def straight_pairs(
+    vertices: NDArray[np.floating], centers: NDArray[np.intp], rings: NDArray[np.int32], n_pairs: int
 ) -> NDArray[np.int32]:
-    """Choose straight pairs of each ring (K, n), K >= 4, greedily by largest angle.
+    """Choose pairs of ring vertices greedily by largest angle at the center, each ring vertex once.
 
-    Returns the first vertices of the pairs, then the second ones: shape (6, n), or (4, n) for K = 4.
+    Parameters
+    ----------
+    vertices : ndarray, shape (N, 3)
+        Positions.
+    centers : ndarray, shape (n,), intp
+        Center vertices.
+    rings : ndarray, shape (K, n), int32
+        Their rings.
+    n_pairs : int
+        Number of pairs, at most K // 2; rings of five have one more, see Notes.
+
+    Returns
+    -------
+    ndarray, shape (2 P, n), int32
+        The first vertices of the P pairs, then the second ones.
+
+    Notes
+    -----
+    In a ring of five the vertex left over is paired once more with the used one that makes the largest angle.
     """
+    chosen = pair_positions(vertices, centers, rings, n_pairs)
+    columns = np.arange(rings.shape[1])
+    return np.stack([rings[a, columns] for a, _ in chosen] + [rings[b, columns] for _, b in chosen])
+
+
+def pair_positions(
+    vertices: NDArray[np.floating], centers: NDArray[np.intp], rings: NDArray[np.int32], n_pairs: int
+) -> list[tuple[NDArray[np.intp], NDArray[np.intp]]]:
+    """Return the ring positions of the pairs of `straight_pairs`, each (n,)."""
     valence, n = rings.shape
     first, second = np.triu_indices(valence, 1)
     cosine = _pair_cosines(vertices, centers, rings, first, second)
     remaining = cosine.copy()
-    columns = np.arange(n)
     chosen = []
     left = np.full(n, 10)  # the positions 0 to 4 of a ring of five sum to 10
-    for _ in range(min(valence // 2, 3)):
+    for _ in range(n_pairs):
         best = remaining.argmin(axis=0)
         a, b = first[best], second[best]
         chosen.append((a, b))
@@ -103,12 +137,10 @@ def _straight_pairs(
         used = (first[:, None] == a) | (first[:, None] == b) | (second[:, None] == a) | (second[:, None] == b)
         remaining[used] = np.inf
     if valence == 5:
-        # The vertex left over is paired once more with the used one that makes the largest angle.
         cosine[(first[:, None] != left) & (second[:, None] != left)] = np.inf
         best = cosine.argmin(axis=0)
         chosen.append((first[best], second[best]))
-    ends = [rings[a, columns] for a, _ in chosen] + [rings[b, columns] for _, b in chosen]
-    return np.stack(ends)
+    return chosen
 
 
 def _pair_cosines(
@@ -129,25 +161,42 @@ def _pair_cosines(
     return np.rint(cosine / TIE)
 
 
-def _completed_rings(
-    builder: StencilBuilder, vertices: NDArray[np.floating], rings: NDArray[np.int32]
-) -> NDArray[np.int32]:
-    """Insert midpoints of the longest ring edges until each ring (K, n), K = 3 or 4, has six; shape (6, n)."""
+def complete_rings(
+    builder: StencilBuilder, vertices: NDArray[np.floating], rings: NDArray[np.int32], size: int
+) -> list[NDArray[np.int32]]:
+    """Insert midpoints of the longest ring edges until rings have the wanted size.
+
+    Parameters
+    ----------
+    builder : StencilBuilder
+        Receives the midpoints.
+    vertices : ndarray, shape (N, 3)
+        Positions.
+    rings : ndarray, shape (K, n), int32
+        Closed rings of vertices.
+    size : int
+        Wanted number of points, at least K and at most 2 K.
+
+    Returns
+    -------
+    list of ndarray, shape (n,), int32
+        The points in ring order.
+    """
     valence, n = rings.shape
     points = vertices[rings].astype(np.float64)
     lengths = np.linalg.norm(np.roll(points, -1, axis=0) - points, axis=2)
     longest = lengths.max(axis=0)
     lengths = np.rint(lengths / np.where(longest > 0, longest, 1.0) / TIE)
-    chosen = np.sort(np.argsort(-lengths, axis=0, kind="stable")[: 6 - valence], axis=0)
-    slots = np.empty((6, n), np.int32)
-    for edges in combinations(range(valence), 6 - valence):
+    chosen = np.sort(np.argsort(-lengths, axis=0, kind="stable")[: size - valence], axis=0)
+    completed = np.empty((size, n), np.int32)
+    for edges in combinations(range(valence), size - valence):
         columns = np.flatnonzero((chosen == np.array(edges)[:, None]).all(axis=0))
         row = 0
         for place in range(valence):
-            slots[row, columns] = rings[place, columns]
+            completed[row, columns] = rings[place, columns]
             row += 1
             if place in edges:
                 ends = rings[[place, (place + 1) % valence]][:, columns]
-                slots[row, columns] = builder.add_combined(ends, (0.5, 0.5))
+                completed[row, columns] = builder.add_combined(ends, (0.5, 0.5))
                 row += 1
-    return slots
+    return list(completed)

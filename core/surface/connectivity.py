@@ -47,6 +47,8 @@ class Connectivity:
     face_across : ndarray, shape (C,), int32
         The face on the other side of each corner's edge; -1 at edges with one face or more than two. The
         faces around face f are `face_across[face_offset[f]:face_offset[f + 1]]`.
+    has_quads, has_triangle_pairs : bool
+        Whether there is a quad, and whether two triangles share an edge.
     """
 
     ring_offset: NDArray[np.int64]
@@ -61,6 +63,8 @@ class Connectivity:
     all_quads: NDArray[np.bool_]
     edge_face_count: NDArray[np.int32]
     face_across: NDArray[np.int32]
+    has_quads: bool
+    has_triangle_pairs: bool
 
     @property
     def n_vertices(self) -> int:
@@ -72,6 +76,18 @@ class Connectivity:
         """True if every edge with a face has two of them and no fan is broken, so that a volume exists."""
         used = self.edge_face_count > 0
         return bool(used.any() and (self.edge_face_count[used] == 2).all() and not self.is_non_manifold.any())
+
+    def is_regular_triangle(self) -> NDArray[np.bool_]:
+        """Return which vertices have a closed fan of six triangles, shape (N,), bool."""
+        return self.all_triangles & (self.valence == 6) & ~self.is_boundary & ~self.is_non_manifold
+
+    def is_regular_quad(self) -> NDArray[np.bool_]:
+        """Return which vertices have a closed fan of four quads, shape (N,), bool."""
+        return self.all_quads & (self.valence == 4) & ~self.is_boundary & ~self.is_non_manifold
+
+    def is_irregular(self) -> NDArray[np.bool_]:
+        """Return which vertices with faces are regular on neither lattice, shape (N,), bool."""
+        return ~self.is_loose & ~self.is_regular_triangle() & ~self.is_regular_quad()
 
     def loose_edges(self) -> NDArray[np.intp]:
         """Return the indices of edges without a face."""
@@ -157,6 +173,8 @@ def connect(surface: SurfaceMesh, blocks: Blocks | None = None) -> Connectivity:
         all_quads=has_face & ~_marked(n_vertices, corner_vertex[size_of_corner != 4]),
         edge_face_count=count,
         face_across=face_across,
+        has_quads=bool((sizes == 4).any()),
+        has_triangle_pairs=bool(((size_of_corner == 3) & (face_across >= 0) & (sizes[face_across] == 3)).any()),
     )
 
 

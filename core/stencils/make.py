@@ -1,0 +1,81 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The one entry point to stencils: which rule serves a bank at a level."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..blocks import Blocks
+from ..frames import BOX_SPLINE_111, FilterBank
+from ..surface.connectivity import Connectivity
+from ..surface.distance_rings import edge_adjacency, face_adjacency
+from ..surface.surface_mesh import SurfaceMesh
+from .builder import StencilBuilder
+from .dilation import dilate
+from .members import one_ring_members, quad_members, triangle_members
+from .quads import fill_quads
+from .stencil import Stencil
+from .triangles import ACROSS, fill_triangles
+from .walked import make_walked_stencil
+
+RULES = ("MEAN", "STRAIGHT")
+
+
+def make_stencil(
+    surface: SurfaceMesh,
+    connectivity: Connectivity,
+    rule: str = "STRAIGHT",
+    boundary: str = "ALONG",
+    blocks: Blocks | None = None,
+    bank: FilterBank = BOX_SPLINE_111,
+    level: int = 0,
+) -> Stencil:
+    """Choose the points under the masks of a bank (sections 3.1, 3.2, 4.2, 5.1, 5.4).
+
+    Parameters
+    ----------
+    surface : SurfaceMesh
+        The surface on which angles and lengths are measured; not modified.
+    connectivity : Connectivity
+        Its neighborhoods.
+    rule : {"MEAN", "STRAIGHT"}
+        The rule at irregular vertices; those that STRAIGHT cannot serve take MEAN.
+    boundary : {"ALONG", "FIXED", "FREE"}
+        With FREE, boundary vertices are irregular vertices like others; else missing points are mirrored.
+    blocks : Blocks, optional
+        Threads to work on.
+    bank : FilterBank
+        The masks to serve.
+    level : int
+        Dilation level; taps are 2^level edges apart.
+
+    Returns
+    -------
+    Stencil
+        Loose vertices have themselves under every tap.
+
+    Raises
+    ------
+    ValueError
+        If the rule is not known.
+    """
+    if rule not in RULES:
+        raise ValueError(f"The stencil rule is {rule!r}; choose one of {', '.join(RULES)}.")
+    blocks = blocks or Blocks(1)
+    if bank.is_cell_centered or bank.reach > 1:
+        return make_walked_stencil(surface, connectivity, boundary, bank, level)
+    builder = StencilBuilder(surface.n_vertices, bank.offsets)
+    if bank.lattice == "QUADS":
+        members = quad_members(surface, connectivity)
+        if level:
+            adjacency = face_adjacency(surface, connectivity)
+            members = dilate(members, surface.vertices, adjacency, level, 1, blocks)
+        fill_quads(builder, surface.vertices, members, rule, boundary, blocks)
+    else:
+        has_far = builder.has(*ACROSS)
+        members = triangle_members(surface, connectivity) if has_far else one_ring_members(connectivity)
+        if level:
+            members = dilate(members, surface.vertices, edge_adjacency(connectivity), level, 2, blocks)
+        fill_triangles(builder, surface.vertices, members, rule, boundary, blocks)
+    return builder.finish()

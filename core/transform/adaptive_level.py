@@ -1,0 +1,161 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A level whose masks fit the valence of each vertex; its adjoint is its exact inverse."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import DTypeLike, NDArray
+
+from ..blocks import Blocks
+from ..frames.valence_masks import HarmonicBank, PairwiseBank
+from ..stencils.members import Members
+from .level import Chunk, Points, Visit
+
+SLOTS_PER_CHUNK = 2**17
+"""Taps that a chunk may hold, so that its arrays stay in the cache at any valence."""
+
+
+class _Chunk:
+    """Vertices with the same number of neighbors, and their taps."""
+
+    def __init__(
+        self, bank: HarmonicBank | PairwiseBank, vertices: NDArray[np.intp], taps: NDArray[np.int32], begin: int
+    ) -> None:
+        self.bank = bank
+        self.vertices = vertices
+        self.taps = taps  # (K + 1, n)
+        self.place = slice(begin, begin + taps.size)  # where its taps stand in the flat list of all taps
+
+
+class AdaptiveLevel:
+    """One level of the frames in `frames.valence_masks`.
+
+    Parameters
+    ----------
+    members : Members
+        One-rings, at level 0 or dilated. A neighbor that was not found is left out.
+    family : type
+        `HarmonicBank` or `PairwiseBank`.
+    out_measure : ndarray, shape (N,)
+        Measure m' of this level's coefficients.
+    dtype : dtype
+        Precision to work in.
+    blocks : Blocks
+        Threads to work on.
+
+    Attributes
+    ----------
+    measure : ndarray, shape (N,), float64
+        The measure m pulled back to this level's input.
+    """
+
+    def __init__(
+        self,
+        members: Members,
+        family: type[HarmonicBank] | type[PairwiseBank],
+        out_measure: NDArray[np.float64],
+        dtype: DTypeLike,
+        blocks: Blocks,
+    ) -> None:
+        self._blocks = blocks.sized(1)
+        self._dtype = np.dtype(dtype)
+        self._n = members.connectivity.n_vertices
+        self._chunks = _make_chunks(members, family)
+        taps = np.concatenate([chunk.taps.ravel() for chunk in self._chunks])
+        flow = np.concatenate(
+            [(chunk.bank.weights[:, None] * out_measure[chunk.vertices]).ravel() for chunk in self._chunks]
+        )
+        self.measure = np.bincount(taps, flow, self._n)
+        # Every vertex is at least its own tap, so that no row of the transposed table is empty.
+        self._order = np.argsort(taps, kind="stable")
+        counts = np.bincount(taps, minlength=self._n)
+        self._begin = np.cumsum(counts) - counts
+        share = np.concatenate(
+            [np.broadcast_to(out_measure[chunk.vertices], chunk.taps.shape).ravel() for chunk in self._chunks]
+        )
+        self._share = (share / self.measure[taps]).astype(dtype)
+
+    @property
+    def sites(self) -> Sequence[NDArray[np.intp]]:
+        """For each chunk, its vertices."""
+        return [chunk.vertices for chunk in self._chunks]
+
+    @property
+    def n_sites(self) -> int:
+        """Number of vertices."""
+        return self._n
+
+    @property
+    def n_high(self) -> int:
+        """Number of high bands at the vertex with the most neighbors."""
+        return max(chunk.bank.n_bands for chunk in self._chunks) - 1
+
+    def group_starts(self, chunk: int) -> NDArray[np.intp] | None:
+        """Return where groups of bands begin that are shrunk as one; see `Level`."""
+        return self._chunks[chunk].bank.group_starts
+
+    def forward(self, low: Points, visit: Visit) -> tuple[Points, NDArray[np.floating]]:
+        """Analyze a surface and begin to rebuild it; see `Level`."""
+        next_low = np.empty_like(low)
+        pending = np.empty((3, len(self._order)), low.dtype)
+
+        def kernel(index: int, _: int) -> None:
+            chunk = self._chunks[index]
+            coefficients = chunk.bank.apply(low.take(chunk.taps, axis=1))
+            next_low[:, chunk.vertices] = coefficients[:, 0]
+            visit(index, coefficients[:, 1:])
+            coefficients[:, 0] = 0
+            pending[:, chunk.place] = chunk.bank.apply_transposed(coefficients).reshape(3, -1)
+
+        self._blocks.run(kernel, len(self._chunks))
+        return next_low, pending
+
+    def pending(self, chunks: Sequence[Chunk]) -> NDArray[np.floating]:
+        """Return what given high bands add to the rebuilt surface; see `Level`."""
+        pending = np.empty((3, len(self._order)), self._dtype)
+        for chunk, high in zip(self._chunks, chunks, strict=True):
+            coefficients = np.concatenate((np.zeros((3, 1, high.shape[2]), self._dtype), high), axis=1)
+            pending[:, chunk.place] = chunk.bank.apply_transposed(coefficients).reshape(3, -1)
+        return pending
+
+    def backward(self, next_low: Points, pending: NDArray[np.floating]) -> Points:
+        """Rebuild the surface by the adjoint with respect to the measures; see `Level`."""
+        pending = pending.copy()
+        for chunk in self._chunks:
+            weighted = chunk.bank.weights.astype(self._dtype)[:, None] * next_low[:, None, chunk.vertices]
+            pending[:, chunk.place] += weighted.reshape(3, -1)
+        pending *= self._share
+        return np.add.reduceat(pending[:, self._order], self._begin, axis=1)
+
+    def adjoint(self, next_low: Points, chunks: Sequence[Chunk]) -> Points:
+        """Apply the adjoint with respect to the measures, which is the inverse."""
+        return self.backward(next_low, self.pending(chunks))
+
+
+def _make_chunks(members: Members, family: type[HarmonicBank] | type[PairwiseBank]) -> list[_Chunk]:
+    """Sort the vertices by the number of neighbors found and by whether these are in ring order."""
+    connectivity = members.connectivity
+    n = connectivity.n_vertices
+    owner = np.repeat(np.arange(n), connectivity.valence)
+    is_found = members.near >= 0
+    found = np.bincount(owner[is_found], minlength=n)
+    offset = np.concatenate(([0], np.cumsum(found)))
+    near = members.near[is_found]
+    chunks: list[_Chunk] = []
+    begin = 0
+    for is_ordered in (True, False):
+        kind = connectivity.is_non_manifold != is_ordered
+        for valence in np.unique(found[kind]):
+            bank = family(int(valence)) if family is PairwiseBank else family(int(valence), is_ordered)
+            group = np.flatnonzero(kind & (found == valence))
+            size = max(1, SLOTS_PER_CHUNK // bank.n_bands)
+            for part in np.split(group, range(size, len(group), size)):
+                taps = np.empty((valence + 1, len(part)), np.int32)
+                taps[0] = part
+                taps[1:] = near[offset[part] + np.arange(valence)[:, None]]
+                chunks.append(_Chunk(bank, part, taps, begin))
+                begin += taps.size
+    return chunks

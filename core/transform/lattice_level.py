@@ -1,0 +1,168 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A level with the masks of a filter bank: alpha = M D, rebuilt by the rows v with v M = delta."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import DTypeLike, NDArray
+
+from ..blocks import Blocks
+from ..frames import FilterBank
+from ..frames.mask_product import MaskProduct
+from ..stencils import Stencil
+from .level import Chunk, Points, Visit
+
+
+class LatticeLevel:
+    """One level of (3.6), (3.7) for vertex-centered and cell-centered banks.
+
+    Because the low-pass entry of every row v is 1, rebuilding is one sum: the low-pass, averaged over the sites
+    in which a vertex is a central tap, plus the same average of the high bands times v. A vertex that is
+    nowhere a central tap (cell-centered banks on borders) keeps its position in the low-pass, and so nothing is
+    lost there either.
+
+    Parameters
+    ----------
+    stencil : Stencil
+        Points under the masks.
+    bank : FilterBank
+        The masks.
+    dtype : dtype
+        Precision to work in.
+    blocks : Blocks
+        Threads to work on.
+    bands : ndarray of int, optional
+        Bands to compute, the low-pass first; all by default.
+    """
+
+    def __init__(
+        self,
+        stencil: Stencil,
+        bank: FilterBank,
+        dtype: DTypeLike,
+        blocks: Blocks,
+        bands: NDArray[np.intp] | None = None,
+    ) -> None:
+        if stencil.n_taps != bank.n_taps:
+            raise ValueError(f"The stencil has {stencil.n_taps} taps, but {bank.name} has {bank.n_taps}.")
+        bands = np.arange(bank.n_bands) if bands is None else bands
+        self.stencil = stencil
+        self._blocks = blocks
+        self._masks = bank.masks[bands]
+        self._product = MaskProduct(self._masks, dtype)
+        self._rows = bank.reconstruction[:, bands].astype(dtype)
+        starts = range(0, stencil.n_sites, blocks.block_size)
+        self.sites = [slice(start, min(start + blocks.block_size, stencil.n_sites)) for start in starts]
+        self._points = np.empty((3, stencil.n_points), dtype)
+        self._incidence = None if stencil.is_vertex_centered else _Incidence(stencil, len(self._rows), dtype)
+
+    @property
+    def n_sites(self) -> int:
+        """Number of sites."""
+        return self.stencil.n_sites
+
+    @property
+    def n_high(self) -> int:
+        """Number of high bands."""
+        return len(self._masks) - 1
+
+    def group_starts(self, chunk: int) -> NDArray[np.intp] | None:
+        """Return None: every band is shrunk by itself."""
+        return None
+
+    def forward(self, low: Points, visit: Visit) -> tuple[Points, NDArray[np.floating]]:
+        """Analyze a surface and begin to rebuild it; see `Level`."""
+        stencil, points = self.stencil, self._points
+        points[:, : stencil.n_vertices] = low
+        stencil.fill_virtual(points, self._blocks)
+        site_low = np.empty((3, stencil.n_sites), points.dtype)
+        detail = np.empty((len(self._rows), 3, stencil.n_sites), points.dtype)
+
+        def kernel(start: int, stop: int) -> None:
+            coefficients = self._product(stencil.gather(points, start, stop))
+            site_low[:, start:stop] = coefficients[:, 0]
+            visit(start // self._blocks.block_size, coefficients[:, 1:])
+            self._weigh(coefficients[:, 1:], detail[:, :, start:stop])
+
+        self._blocks.run(kernel, stencil.n_sites)
+        if self._incidence is None:
+            return site_low, detail[0]
+        return self._incidence.mean(np.broadcast_to(site_low, detail.shape), low), self._incidence.mean(detail)
+
+    def pending(self, chunks: Sequence[Chunk]) -> NDArray[np.floating]:
+        """Return what given high bands add to the rebuilt surface; see `Level`."""
+        detail = np.empty((len(self._rows), 3, self.n_sites), self._points.dtype)
+        for part, chunk in zip(self.sites, chunks, strict=True):
+            self._weigh(chunk, detail[:, :, part])
+        return detail[0] if self._incidence is None else self._incidence.mean(detail)
+
+    def _weigh(self, high: Chunk, out: NDArray[np.floating]) -> None:
+        """Write the sums of v times the high bands, shape (rows, 3, n)."""
+        for row, total in zip(self._rows[:, 1:], out, strict=True):
+            total[:] = 0
+            for band in np.flatnonzero(row):
+                total += high[:, band] if row[band] == 1 else row[band] * high[:, band]
+
+    def backward(self, next_low: Points, pending: NDArray[np.floating]) -> Points:
+        """Rebuild the surface; see `Level`."""
+        return next_low + pending
+
+    def adjoint(self, next_low: Points, chunks: Sequence[Chunk]) -> Points:
+        """Apply the transposed matrix of this level.
+
+        For cell-centered banks `next_low` is given on vertices like everywhere, and goes back through the
+        transposed averages.
+        """
+        stencil = self.stencil
+        result = np.zeros((3, stencil.n_vertices))
+        if self._incidence is None:
+            site_low = next_low
+        else:
+            site_low = self._incidence.transposed_mean(next_low)
+            result += np.where(self._incidence.is_served, 0.0, next_low)
+        spread = np.zeros((3, stencil.n_points))
+        for part, chunk in zip(self.sites, chunks, strict=True):
+            coefficients = np.concatenate((site_low[:, None, part], chunk), axis=1)
+            taps = np.matmul(self._masks.T, coefficients)
+            index = stencil.slots[:, part].ravel()
+            for axis in range(3):
+                spread[axis] += np.bincount(index, taps[axis].ravel(), stencil.n_points)
+        result += spread[:, : stencil.n_vertices]
+        owner = np.repeat(np.arange(stencil.n_vertices, stencil.n_points), np.diff(stencil.virtual_offset))
+        for axis in range(3):
+            weights = stencil.virtual_weight * spread[axis, owner]
+            result[axis] += np.bincount(stencil.virtual_vertex, weights, stencil.n_vertices)
+        return result.astype(self._points.dtype)
+
+
+class _Incidence:
+    """The sites in which each vertex is a central tap."""
+
+    def __init__(self, stencil: Stencil, n_centers: int, dtype: DTypeLike) -> None:
+        central = stencil.slots[:n_centers].ravel()  # index: center * n_sites + site
+        entries = np.flatnonzero(central < stencil.n_vertices)
+        vertex = central[entries]
+        self._entries = entries[np.argsort(vertex, kind="stable")]
+        counts = np.bincount(vertex, minlength=stencil.n_vertices)
+        self.is_served = counts > 0
+        self._begin = (np.cumsum(counts) - counts)[self.is_served]
+        self._share = np.divide(1.0, counts[self.is_served]).astype(dtype)
+        self._shape = (n_centers, stencil.n_sites)
+
+    def mean(self, values: NDArray[np.floating], rest: Points | None = None) -> Points:
+        """Average site values, shape (centers, 3, n_sites), to vertices; others take `rest`, or 0."""
+        flat = values.transpose(1, 0, 2).reshape(3, -1)
+        result = np.zeros((3, len(self.is_served)), values.dtype) if rest is None else rest.copy()
+        if len(self._begin):
+            result[:, self.is_served] = np.add.reduceat(flat[:, self._entries], self._begin, axis=1) * self._share
+        return result
+
+    def transposed_mean(self, values: Points) -> Points:
+        """Apply the transposed average of a low-pass, from vertices to sites, shape (3, n_sites)."""
+        counts = np.diff(np.append(self._begin, len(self._entries)))
+        per_entry = np.repeat(values[:, self.is_served] * self._share, counts, axis=1)
+        site = self._entries % self._shape[1]
+        return np.stack([np.bincount(site, row, self._shape[1]) for row in per_entry])

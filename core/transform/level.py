@@ -1,0 +1,73 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What every level of a transform can do, whatever its masks and stencils are."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+Points = NDArray[np.floating]
+"""Coordinates in rows, shape (3, N)."""
+
+Chunk = NDArray[np.floating]
+"""High bands of some sites, shape (3, H, n): coordinates, bands, sites."""
+
+Visit = Callable[[int, Chunk], None]
+"""`visit(i, chunk)` is called for the high bands of chunk i, on any thread, and may change them in place."""
+
+
+class Level(Protocol):
+    """One level W_j of a frame transform.
+
+    The sites of a level fall into chunks: blocks of vertices or cells that have the same bands. Work is done
+    chunk by chunk, so that coefficients which nobody asked for never leave the cache.
+    """
+
+    @property
+    def sites(self) -> Sequence[NDArray[np.intp] | slice]:
+        """For each chunk, which sites it holds."""
+        ...
+
+    @property
+    def n_sites(self) -> int:
+        """Number of sites: vertices or cells."""
+        ...
+
+    def group_starts(self, chunk: int) -> NDArray[np.intp] | None:
+        """Return where groups of bands begin that vector shrinkage treats as one; None for single bands."""
+        ...
+
+    def forward(self, low: Points, visit: Visit) -> tuple[Points, NDArray[np.floating]]:
+        """Analyze a surface and begin to rebuild it.
+
+        Parameters
+        ----------
+        low : ndarray, shape (3, N)
+            Low-pass of the level before; not modified.
+        visit : callable
+            Sees the high bands and may change them.
+
+        Returns
+        -------
+        next_low : ndarray, shape (3, N)
+            Low-pass of this level, on the vertices.
+        pending : ndarray
+            What the (changed) high bands add to the rebuilt surface; for `backward`.
+        """
+        ...
+
+    def pending(self, chunks: Sequence[Chunk]) -> NDArray[np.floating]:
+        """Return what given high bands add to the rebuilt surface."""
+        ...
+
+    def backward(self, next_low: Points, pending: NDArray[np.floating]) -> Points:
+        """Rebuild `low`, shape (3, N), from the low-pass of this level and its pending high bands."""
+        ...
+
+    def adjoint(self, next_low: Points, chunks: Sequence[Chunk]) -> Points:
+        """Apply the adjoint of the level to its low-pass and high bands."""
+        ...
