@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from .denoising.denoise import denoise
     from .denoising.report import DenoiseReport, DenoiseResult
+    from .equalizer import equalize
     from .frames import BANKS, FilterBank
     from .metrics import Comparison, compare
     from .noise import add_noise
@@ -42,6 +43,7 @@ _HOMES = {
     "compare": ".metrics",
     "connect": ".surface.connectivity",
     "denoise": ".denoising.denoise",
+    "equalize": ".equalizer",
     "make_stencil": ".stencils",
     "make_transform": ".transform",
     "synthesize": ".transform",
@@ -67,6 +69,7 @@ __all__ = [
     "compare",
     "connect",
     "denoise",
+    "equalize",
     "make_stencil",
     "make_transform",
     "synthesize",

@@ -53,7 +53,9 @@ def compare(surface: SurfaceMesh, reference: SurfaceMesh) -> Comparison:
     if not np.array_equal(surface.face_offset, reference.face_offset) or not np.array_equal(
         surface.corner_vertex, reference.corner_vertex
     ):
-        raise ValueError("The meshes have different faces; only meshes with the same topology can be compared.")
+        raise ValueError(
+            "The meshes have different faces; only meshes with the same topology can be compared."
+        )
     if not surface.n_faces:
         raise ValueError("The meshes have no faces; there is nothing to compare.")
     distance = np.linalg.norm(surface.vertices.astype(np.float64) - reference.vertices, axis=1)

@@ -35,7 +35,8 @@ def add_noise(surface: SurfaceMesh, sigma: float = PAPER_SIGMA, seed: int = 0) -
     Raises
     ------
     ValueError
-        If sigma is negative or not finite, or the mesh has no faces, no size or positions that are not finite.
+        If sigma is negative or not finite, or the mesh has no faces, no size or positions that are not
+        finite.
     """
     if not 0.0 <= sigma < np.inf:
         raise ValueError(f"The noise level is {sigma:g}; it must be zero or a positive number.")

@@ -13,6 +13,8 @@ from dataclasses import dataclass, field, fields, replace
 from numbers import Integral, Real
 from typing import Any, NamedTuple
 
+from .frame_catalog import FRAME_CATALOG
+
 
 class Choice(NamedTuple):
     """One value of a setting that is chosen from a list."""
@@ -44,24 +46,41 @@ def _setting(default: Any, label: str, description: str, **info: Any) -> Any:
 
 METHODS = (
     Choice("POSITIONS", "Positions (paper)", "Split Bregman on vertex positions with a tight wavelet frame"),
-    Choice("BILATERAL", "Bilateral", "Bilateral mesh filtering (Fleishman et al. 2003), the paper's baseline"),
+    Choice(
+        "BILATERAL", "Bilateral", "Bilateral mesh filtering (Fleishman et al. 2003), the paper's baseline"
+    ),
 )
 FRAMES = (
-    Choice("BOX_SPLINE_111", "Box Spline", "Three-direction linear box spline, seven masks: (3.5)"),
-    Choice("BOX_SPLINE_111_CANONICAL", "Box Spline, canonical", "The same low-pass with seven high-pass masks: (3.8)"),
+    Choice("AUTO", "Automatic", "Box spline on triangles, linear spline on quads, adaptive on anything else"),
+    *(Choice(entry.identifier, entry.label, entry.description) for entry in FRAME_CATALOG),
 )
 STENCILS = (
-    Choice("MEAN", "Mean", "At irregular vertices every tap is the mean of the one-ring; smooths more, blurs edges"),
-    Choice("STRAIGHT", "Straight", "At irregular vertices neighbors are paired along the straightest lines; keeps edges"),
+    Choice(
+        "MEAN",
+        "Mean",
+        "At irregular vertices every tap is the mean of the one-ring; smooths more, blurs edges",
+    ),
+    Choice(
+        "STRAIGHT",
+        "Straight",
+        "At irregular vertices neighbors are paired along the straightest lines; keeps edges",
+    ),
+    Choice("ADAPTIVE", "Adaptive", "Masks fit each vertex's valence, whatever the frame; exactly tight"),
 )
 SHRINKAGES = (
-    Choice("BANDS", "Bands", "Each coordinate is shrunk by its norm over all bands (4.5); depends on the axes"),
-    Choice("VECTOR", "Vector", "Each band is shrunk by the length of its vector; does not depend on the axes"),
+    Choice(
+        "BANDS", "Bands", "Each coordinate is shrunk by its norm over all bands (4.5); depends on the axes"
+    ),
+    Choice(
+        "VECTOR", "Vector", "Each band is shrunk by the length of its vector; does not depend on the axes"
+    ),
     Choice("SCALAR", "Scalar", "Each number is shrunk by itself (5.5); depends on the axes"),
 )
 BOUNDARIES = (
     Choice("FIXED", "Fixed", "Boundary vertices do not move"),
-    Choice("ALONG", "Along", "Boundaries are smoothed along themselves and are not pulled inwards; corners stay"),
+    Choice(
+        "ALONG", "Along", "Boundaries are smoothed along themselves and are not pulled inwards; corners stay"
+    ),
     Choice("FREE", "Free", "Boundary vertices move like all others, so that open borders shrink"),
 )
 
@@ -71,7 +90,7 @@ class DenoiseSettings:
     """Parameters of `framelet.core.denoise`.
 
     Lengths (`lambda_`, `sigma_c`, `sigma_s`) are in units of the mean edge length of the mesh, so that the
-    same numbers mean the same on every mesh. The defaults are the paper's Algorithm-Tri-2.
+    same numbers mean the same on every mesh. The defaults are those of the preset AUTO.
 
     Raises
     ------
@@ -80,19 +99,18 @@ class DenoiseSettings:
     """
 
     method: str = _setting("POSITIONS", "Method", "How the surface is cleaned", choices=METHODS)
-    frame: str = _setting("BOX_SPLINE_111", "Frame", "The filter bank of the wavelet frame", choices=FRAMES)
+    frame: str = _setting("AUTO", "Frame", "The filter bank of the wavelet frame", choices=FRAMES)
     stencil: str = _setting(
         "STRAIGHT", "Stencil", "Which points fill the masks at irregular vertices", choices=STENCILS
     )
     shrinkage: str = _setting("VECTOR", "Shrinkage", "What is shrunk together", choices=SHRINKAGES)
     levels: int = _setting(
-        1, "Levels", "Number of scales; a larger number also removes coarser noise", minimum=1, maximum=1
+        1, "Levels", "Number of scales; a larger number also removes coarser noise", minimum=1, maximum=6
     )
     lambda_: float = _setting(
-        0.3,
+        0.25,
         "Smoothing",
-        "Weight of the frame coefficients, in mean edge lengths: larger removes more noise and more detail; "
-        "at convergence no vertex moves farther than 3 λ",
+        "Weight of the frame coefficients, in mean edge lengths: larger removes more noise and more detail",
         minimum=0.0,
         maximum=100.0,
         soft_maximum=2.0,
@@ -154,7 +172,7 @@ class DenoiseSettings:
     threads: int = _setting(
         0,
         "Threads",
-        "Number of threads: larger is faster up to the number of cores, the result is the same; 0 uses all cores",
+        "Number of threads: larger is faster, up to the number of cores, with the same result; 0 uses all",
         minimum=0,
         maximum=256,
         soft_maximum=32,
@@ -162,7 +180,7 @@ class DenoiseSettings:
 
     def __post_init__(self) -> None:
         for item in fields(self):
-            _check(item.name, item.metadata["info"], item.type, getattr(self, item.name))
+            _check(item.metadata["info"], str(item.type), getattr(self, item.name))
 
     def with_changes(self, **changes: Any) -> DenoiseSettings:
         """Return a copy with some fields changed.
@@ -175,7 +193,7 @@ class DenoiseSettings:
         return replace(self, **changes)
 
 
-def _check(name: str, info: SettingInfo, kind: str, value: Any) -> None:
+def _check(info: SettingInfo, kind: str, value: Any) -> None:
     """Raise ValueError, with the value, unless it is allowed for this setting."""
     label = f"{info.label} ({info.symbol})" if info.symbol else info.label
     if info.choices:
@@ -183,10 +201,10 @@ def _check(name: str, info: SettingInfo, kind: str, value: Any) -> None:
         if value not in names:
             raise ValueError(f"{label} is {value!r}; choose one of {', '.join(names)}.")
         return
-    wanted = Integral if kind == "int" else Real
-    if not isinstance(value, wanted) or isinstance(value, bool):
+    is_number = isinstance(value, Integral if kind == "int" else Real)
+    if not is_number or type(value) is bool:
         raise ValueError(f"{label} is {value!r}; it must be a {'whole ' if kind == 'int' else ''}number.")
-    assert info.minimum is not None and info.maximum is not None, name
+    assert info.minimum is not None and info.maximum is not None
     if not info.minimum <= value <= info.maximum:  # also refuses NaN
         raise ValueError(f"{label} is {value:g}; it must be between {info.minimum:g} and {info.maximum:g}.")
 
@@ -205,15 +223,30 @@ class Preset(NamedTuple):
 
 
 PRESETS: Mapping[str, Preset] = {
+    "AUTO": Preset(
+        "Automatic",
+        "The frame that fits the faces of the mesh, with straight pairs and vector shrinkage",
+        {"frame": "AUTO", "stencil": "STRAIGHT", "shrinkage": "VECTOR", "lambda_": 0.25},
+    ),
     "TRI_1": Preset(
         "Tri-1",
         "The paper's Algorithm-Tri-1: one-ring means, all bands shrunk together; even and soft",
-        {"stencil": "MEAN", "shrinkage": "BANDS", "lambda_": 0.5},
+        {"frame": "BOX_SPLINE_111", "stencil": "MEAN", "shrinkage": "BANDS", "lambda_": 0.5},
     ),
     "TRI_2": Preset(
         "Tri-2",
         "The paper's Algorithm-Tri-2: straight pairs, vector shrinkage; keeps edges better",
-        {"stencil": "STRAIGHT", "shrinkage": "VECTOR", "lambda_": 0.3},
+        {"frame": "BOX_SPLINE_111", "stencil": "STRAIGHT", "shrinkage": "VECTOR", "lambda_": 0.3},
+    ),
+    "QUAD_1": Preset(
+        "Quad-1",
+        "The paper's Algorithm-Quad-1 for quads: one-ring means, every number shrunk by itself",
+        {"frame": "LINEAR_SPLINE", "stencil": "MEAN", "shrinkage": "SCALAR", "lambda_": 0.15},
+    ),
+    "QUAD_2": Preset(
+        "Quad-2",
+        "The paper's Algorithm-Quad-2 for quads: straight pairs, vector shrinkage; keeps edges better",
+        {"frame": "LINEAR_SPLINE", "stencil": "STRAIGHT", "shrinkage": "VECTOR", "lambda_": 0.2},
     ),
     "BILATERAL": Preset(
         "Bilateral",
@@ -221,4 +254,4 @@ PRESETS: Mapping[str, Preset] = {
         {"method": "BILATERAL", "iterations": 5},
     ),
 }
-DEFAULT_PRESET = "TRI_2"
+DEFAULT_PRESET = "AUTO"

@@ -58,8 +58,8 @@ def bilateral_filter(
     Notes
     -----
     For a vertex p with normal n and the neighbors q within 2 sigma_c: t = |p - q|, h = <n, q - p>,
-    w = exp(-t^2 / 2 sigma_c^2) exp(-h^2 / 2 sigma_s^2), p <- p + n sum(w h) / sum(w). Neighbors are looked for
-    along the surface, as far as 2 sigma_c edges.
+    w = exp(-t^2 / 2 sigma_c^2) exp(-h^2 / 2 sigma_s^2), p <- p + n sum(w h) / sum(w). Neighbors are looked
+    for along the surface, as far as 2 sigma_c edges.
     """
     dtype = noisy.dtype.type
     points = noisy.copy()

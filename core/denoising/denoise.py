@@ -40,7 +40,7 @@ def denoise(
     surface : SurfaceMesh
         The noisy surface; not modified.
     settings : DenoiseSettings, optional
-        The algorithm and its parameters; by default the paper's Algorithm-Tri-2.
+        The algorithm and its parameters; by default those of the preset AUTO.
     movable : ndarray, shape (N,), bool, optional
         Vertices that may move; all by default. The others are used but stay where they are.
     connectivity : Connectivity, optional
@@ -106,7 +106,8 @@ def _check_movable(movable: NDArray[np.bool_], n_vertices: int) -> None:
     """Raise ValueError unless the mask fits the mesh and selects something."""
     if movable.shape != (n_vertices,) or movable.dtype != bool:
         raise ValueError(
-            f"The mask of movable vertices is {movable.dtype} of shape {movable.shape}; expected bool ({n_vertices},)."
+            f"The mask of movable vertices is {movable.dtype} of shape {movable.shape}; "
+            f"expected bool ({n_vertices},)."
         )
     if not movable.any():
         raise ValueError("No vertex may move; select at least one.")

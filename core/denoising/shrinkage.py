@@ -22,8 +22,8 @@ def shrink(coefficients: NDArray[np.floating], threshold: float, kind: str) -> N
     threshold : float
         Length nu >= 0 by which norms are shortened, in the unit of the coefficients.
     kind : {"BANDS", "VECTOR", "SCALAR"}
-        BANDS (4.5) shortens the norm over the bands of each coordinate, VECTOR (Algorithm-Tri-2) the length of
-        each band's vector, SCALAR (5.5) each number.
+        BANDS (4.5) shortens the norm over the bands of each coordinate, VECTOR (Algorithm-Tri-2) the length
+        of each band's vector, SCALAR (5.5) each number.
 
     Returns
     -------

@@ -57,10 +57,10 @@ def split_bregman(
         S <- (S~ - c + mu V(d - b)) / (1 + mu)
         d <- T(W S + b),  b <- b + W S - d,  c <- c + delta (S - S~)
 
-    V rebuilds a surface: by the row v in the paper's transforms, by the true adjoint, as in (4.6), where masks
-    fit the valence. With y = W S + b it holds that d - b = 2 d - y = y - 2 b for the new b, so that only b and
-    S are kept. The low-pass is not shrunk, so its b stays zero. From the start S = S~, d = W S~, b = c = 0 the
-    first S is S~ itself, which is not computed.
+    V rebuilds a surface: by the row v in the paper's transforms, by the true adjoint, as in (4.6), where
+    masks fit the valence. With y = W S + b it holds that d - b = 2 d - y = y - 2 b for the new b, so that
+    only b and S are kept. The low-pass is not shrunk, so its b stays zero. From the start S = S~, d = W S~, b
+    = c = 0 the first S is S~ itself, which is not computed.
     """
     dtype = noisy.dtype.type
     mu, delta, damping = dtype(settings.mu), dtype(settings.delta), dtype(1.0 / (1.0 + settings.mu))
@@ -72,7 +72,9 @@ def split_bregman(
     for iteration in range(2, settings.iterations + 1):
         moved = transform.shrink_and_rebuild(current, visits)
 
-        def update(start: int, stop: int, current: NDArray[np.floating] = current, moved: NDArray = moved) -> float:
+        def update(
+            start: int, stop: int, current: NDArray[np.floating] = current, moved: NDArray = moved
+        ) -> float:
             part = slice(start, stop)
             block = moved[:, part]
             block *= mu

@@ -4,32 +4,17 @@
 
 from __future__ import annotations
 
-from .b_spline import HIGHEST_ORDER, b_spline
-from .box_spline import BOX_SPLINE_111, BOX_SPLINE_111_CANONICAL
+from importlib import import_module
+
+from ..frame_catalog import FRAME_CATALOG
+from .b_spline import b_spline
 from .filter_bank import FilterBank
-from .four_direction import BOX_SPLINE_FOUR_DIRECTION
-from .linear_spline import LINEAR_SPLINE, LINEAR_SPLINE_REDUCED
 
-BANKS = {
-    bank.name: bank
-    for bank in (
-        BOX_SPLINE_111,
-        BOX_SPLINE_111_CANONICAL,
-        BOX_SPLINE_FOUR_DIRECTION,
-        LINEAR_SPLINE,
-        LINEAR_SPLINE_REDUCED,
-        *(b_spline(order) for order in range(1, HIGHEST_ORDER + 1)),
-    )
+BANKS: dict[str, FilterBank] = {
+    entry.identifier: getattr(import_module(f".{entry.module}", __name__), entry.identifier)
+    for entry in FRAME_CATALOG
+    if entry.module
 }
-"""Every named bank; a bank that is entered here becomes a choice of the setting `frame`."""
+"""Every bank of the catalog."""
 
-__all__ = [
-    "BANKS",
-    "BOX_SPLINE_111",
-    "BOX_SPLINE_111_CANONICAL",
-    "BOX_SPLINE_FOUR_DIRECTION",
-    "LINEAR_SPLINE",
-    "LINEAR_SPLINE_REDUCED",
-    "FilterBank",
-    "b_spline",
-]
+__all__ = ["BANKS", "FilterBank", "b_spline"]

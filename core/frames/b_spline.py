@@ -53,3 +53,8 @@ def _filter(order: int, n: int) -> np.ndarray:
     for step in range(order):
         taps = np.convolve(taps, (1.0, -1.0) if step < n else (1.0, 1.0))
     return sqrt(comb(order, n)) / 2.0**order * taps
+
+
+B_SPLINE_1, B_SPLINE_2, B_SPLINE_3, B_SPLINE_4, B_SPLINE_5, B_SPLINE_6 = (
+    b_spline(order) for order in range(1, HIGHEST_ORDER + 1)
+)

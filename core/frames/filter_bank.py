@@ -4,8 +4,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -16,7 +14,6 @@ CELL_CORNERS = ((0, 0), (0, 1), (1, 1), (1, 0))
 """The central taps of a cell-centered bank, in order around the cell."""
 
 
-@dataclass(frozen=True, eq=False)
 class FilterBank:
     """Masks of a tight wavelet frame on a triangle or quad lattice.
 
@@ -52,37 +49,31 @@ class FilterBank:
         If shapes, row sums, the sum of squares (2.6) or the existence of v fail; the message names which.
     """
 
-    name: str
-    lattice: str
-    offsets: NDArray[np.int64]
-    masks: NDArray[np.float64]
-    is_cell_centered: bool = field(init=False)
-    reconstruction: NDArray[np.float64] = field(init=False)
-    is_tight: bool = field(init=False)
-    is_diagonal: bool = field(init=False)
-
-    def __post_init__(self) -> None:
-        def fix(name: str, value: object) -> None:
-            object.__setattr__(self, name, value)
-
-        offsets = np.array(self.offsets, np.int64)
-        masks = np.array(self.masks, np.float64)
-        offsets.flags.writeable = masks.flags.writeable = False
-        fix("offsets", offsets)
-        fix("masks", masks)
+    def __init__(self, name: str, lattice: str, offsets: ArrayLike, masks: ArrayLike) -> None:
+        self.name = name
+        self.lattice = lattice
+        self.offsets = np.array(offsets, np.int64)
+        self.masks = np.array(masks, np.float64)
         self._check_shapes()
-        fix("is_cell_centered", self._find_centering())
+        self.is_cell_centered = self._find_centering()
         self._check_row_sums()
-        own, shifted = unitary_extension_defects(offsets, masks)
+        own, shifted = unitary_extension_defects(self.offsets, self.masks)
         if own > EXACT:
-            raise ValueError(f"{self.name}: the masks do not satisfy (2.6), sum |a|^2 = 1; they are off by {own:.2g}.")
-        fix("is_tight", bool(shifted <= EXACT))
-        fix("is_diagonal", bool(np.abs(masks.T @ masks - np.diag(masks[0])).max() <= EXACT))
-        fix("reconstruction", reconstruction_rows(masks, 4 if self.is_cell_centered else 1, self.name))
+            raise ValueError(
+                f"{name}: the masks do not satisfy the UEP (2.6), sum |a|^2 = 1; they are off by {own:.2g}."
+            )
+        self.is_tight = shifted <= EXACT
+        gram = self.masks.T @ self.masks
+        self.is_diagonal = bool(np.abs(gram - np.diag(self.low_pass)).max() <= EXACT)
+        self.reconstruction = reconstruction_rows(self.masks, 4 if self.is_cell_centered else 1, name)
+        for array in (self.offsets, self.masks, self.reconstruction):
+            array.flags.writeable = False
 
     def _check_shapes(self) -> None:
         if self.lattice not in ("TRIANGLES", "QUADS", "ANY"):
-            raise ValueError(f"{self.name}: the lattice is {self.lattice!r}; it must be TRIANGLES, QUADS or ANY.")
+            raise ValueError(
+                f"{self.name}: the lattice is {self.lattice!r}; it must be TRIANGLES, QUADS or ANY."
+            )
         if self.offsets.ndim != 2 or self.offsets.shape[1] != 2:
             raise ValueError(f"{self.name}: the offsets have shape {self.offsets.shape}; expected (T, 2).")
         if self.masks.ndim != 2 or self.masks.shape[1] != len(self.offsets):
@@ -111,7 +102,8 @@ class FilterBank:
         if off.max() > EXACT:
             row = int(off.argmax())
             raise ValueError(
-                f"{self.name}: mask {row} sums to {self.masks[row].sum():.6g}; it must sum to {expected[row]:g}."
+                f"{self.name}: mask {row} sums to {self.masks[row].sum():.6g}; "
+                f"it must sum to {expected[row]:g}."
             )
 
     @property
@@ -176,7 +168,9 @@ def unitary_extension_defects(offsets: ArrayLike, masks: ArrayLike) -> tuple[flo
     return float(own), shifted
 
 
-def reconstruction_rows(masks: NDArray[np.float64], n_centers: int = 1, name: str = "masks") -> NDArray[np.float64]:
+def reconstruction_rows(
+    masks: NDArray[np.float64], n_centers: int = 1, name: str = "masks"
+) -> NDArray[np.float64]:
     """Return the rows v of least norm with v M = delta_c for the first taps c: (4.7), (5.8).
 
     Parameters
@@ -198,7 +192,7 @@ def reconstruction_rows(masks: NDArray[np.float64], n_centers: int = 1, name: st
         If no such row exists, so that the masks cannot tell the vertex from its neighbors.
     """
     delta = np.eye(n_centers, masks.shape[1])
-    rows = np.linalg.lstsq(masks.T, delta.T, rcond=None)[0].T
+    rows = np.asarray(np.linalg.lstsq(masks.T, delta.T, rcond=None)[0].T, np.float64)
     rows[np.abs(rows) < EXACT] = 0.0
     off = np.abs(rows @ masks - delta).max()
     if off > EXACT:

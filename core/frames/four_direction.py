@@ -30,7 +30,12 @@ _SQRT_2_SIXTEENTHS = """
  1 -1  -1  0  0  1  -1  0  0  1   1 -1
 -1 -1   1  0  0  1  -1  0  0 -1   1  1
 """
-_PLACES = [(row, column) for row in range(-1, 3) for column in range(-1, 3) if {row, column} not in ({-1}, {2}, {-1, 2})]
+_PLACES = [
+    (row, column)
+    for row in range(-1, 3)
+    for column in range(-1, 3)
+    if {row, column} not in ({-1}, {2}, {-1, 2})
+]
 
 
 def _table(text: str) -> np.ndarray:

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Masks that fit the valence: exactly tight on every mesh, without virtual points.
 
-For a vertex with K neighbors take a low-pass w = (w_c, w_r, ..., w_r) > 0 that sums to 1 and any matrix M_K with
-first row w and M_K' M_K = diag(w). If every tap is one real vertex p[k, t], then for any measure m' > 0
+For a vertex with K neighbors take a low-pass w = (w_c, w_r, ..., w_r) > 0 that sums to 1 and any matrix M_K
+with first row w and M_K' M_K = diag(w). If every tap is one real vertex p[k, t], then for any measure m' > 0
 
     sum_k m'_k |M D_k|^2 = sum_k m'_k sum_t w_t |V[p[k, t]]|^2 = sum_p m_p |V_p|^2
 
@@ -110,9 +110,11 @@ class HarmonicBank:
 
 
 class PairwiseBank:
-    """Low-pass and all weighted differences of a stencil: |L p|^2 + sum w_i w_j |p_i - p_j|^2 = sum w_i |p_i|^2.
+    """Low-pass and all weighted differences of a stencil: |L p|^2 + sum w_i w_j |p_i - p_j|^2 = sum w_i
+    |p_i|^2.
 
-    Its masks are w and, for i < j, sqrt(w_i w_j) (delta_i - delta_j); it is tight for any weights that sum to 1.
+    Its masks are w and, for i < j, sqrt(w_i w_j) (delta_i - delta_j); it is tight for any weights that sum to
+    1.
 
     Parameters
     ----------

@@ -47,7 +47,7 @@ def inner_means(
 
 
 CORNER_TURN = 50.0
-"""Degrees by which a border turns within the surface, from edge to edge, for a vertex to count as a corner."""
+"""Degrees by which a border turns within the surface, from edge to edge, to count as a corner."""
 
 
 def boundary_corners(

@@ -31,7 +31,12 @@ class StencilBuilder:
     """
 
     def __init__(
-        self, n_vertices: int, offsets: ArrayLike, n_sites: int | None = None, *, is_vertex_centered: bool = True
+        self,
+        n_vertices: int,
+        offsets: ArrayLike,
+        n_sites: int | None = None,
+        *,
+        is_vertex_centered: bool = True,
     ) -> None:
         self.n_vertices = n_vertices
         self.row_of = {(int(row), int(column)): tap for tap, (row, column) in enumerate(np.asarray(offsets))}
@@ -90,17 +95,15 @@ class StencilBuilder:
 
         The mirror image of a vertex in itself is the vertex. Points may be virtual.
         """
-        points, centers = np.asarray(points, np.int32), np.asarray(centers, np.int32)
-        apart = points != centers
-        result = points.copy()
-        is_virtual = points >= self.n_vertices
-        plain = apart & ~is_virtual
+        result = points.astype(np.int32)
+        is_virtual = result >= self.n_vertices
+        plain = (result != centers) & ~is_virtual
         result[plain] = self.add_combined(np.stack((centers[plain], points[plain])), (2.0, -1.0))
         if is_virtual.any():
-            result[is_virtual] = self._mirror_virtual(centers[is_virtual], points[is_virtual])
+            result[is_virtual] = self._mirror_virtual(centers[is_virtual], result[is_virtual])
         return result
 
-    def _mirror_virtual(self, centers: NDArray[np.int32], points: NDArray[np.int32]) -> NDArray[np.int32]:
+    def _mirror_virtual(self, centers: NDArray[np.integer], points: NDArray[np.int32]) -> NDArray[np.int32]:
         """Add mirror images of virtual points by writing out their combinations."""
         counts, vertices, weights = self._all_virtual()
         offset = np.concatenate(([0], np.cumsum(counts)))
@@ -114,7 +117,7 @@ class StencilBuilder:
         return self._number(len(points))
 
     def add_combined(self, vertices: NDArray[np.integer], weights: tuple[float, ...]) -> NDArray[np.int32]:
-        """Add combinations of r vertices each, given as shape (r, n); return the new points' numbers, (n,)."""
+        """Add combinations of r vertices each, given as shape (r, n); return their numbers, shape (n,)."""
         n = vertices.shape[1]
         self._counts.append(np.full(n, len(weights), np.int64))
         self._vertices.append(vertices.T.astype(np.int32).ravel())
@@ -129,7 +132,8 @@ class StencilBuilder:
             counts, members, weights = self._all_virtual()
             owner = np.repeat(np.arange(len(counts)), counts)
             virtual = np.stack(
-                [np.bincount(owner, weights * vertices[members, axis], len(counts)) for axis in range(3)], axis=1
+                [np.bincount(owner, weights * vertices[members, axis], len(counts)) for axis in range(3)],
+                axis=1,
             )
             result[is_virtual] = virtual[points[is_virtual] - self.n_vertices]
         return result
@@ -151,5 +155,11 @@ class StencilBuilder:
         counts, vertices, weights = self._all_virtual()
         offset = np.concatenate(([0], np.cumsum(counts)))
         return Stencil(
-            self.n_vertices, self.slots, self._is_vertex_centered, offset, vertices, weights, self.is_irregular
+            self.n_vertices,
+            self.slots,
+            self._is_vertex_centered,
+            offset,
+            vertices,
+            weights,
+            self.is_irregular,
         )

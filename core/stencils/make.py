@@ -4,10 +4,9 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from ..blocks import Blocks
-from ..frames import BOX_SPLINE_111, FilterBank
+from ..frames import FilterBank
+from ..frames.box_spline import BOX_SPLINE_111
 from ..surface.connectivity import Connectivity
 from ..surface.distance_rings import edge_adjacency, face_adjacency
 from ..surface.surface_mesh import SurfaceMesh

@@ -41,7 +41,9 @@ def fill_mean(
         Those of `wanted` that have two neighbors or more but no member in this orbit.
     """
     wanted = wanted[connectivity.valence[wanted] >= 2]
-    points, is_filled = builder.add_means(values, connectivity.ring_offset[wanted], connectivity.valence[wanted])
+    points, is_filled = builder.add_means(
+        values, connectivity.ring_offset[wanted], connectivity.valence[wanted]
+    )
     for place in places:
         builder.set(place, wanted[is_filled], points)
     return wanted[~is_filled]

@@ -97,9 +97,9 @@ def _fill_straight(
 ) -> NDArray[np.intp]:
     """Fill taps by the rule of Algorithm-Quad-2 (section 5.4, Fig. 10).
 
-    Valence 5 and more: of the 2 K vertices around, four pairs by largest angle are kept in ring order. Valence
-    3: the six are completed by the midpoints of the two longest rim edges. Of the eight spokes, the four
-    alternating ones whose total length is larger are dropped: they lead to the far corners.
+    Valence 5 and more: of the 2 K vertices around, four pairs by largest angle are kept in ring order.
+    Valence 3: the six are completed by the midpoints of the two longest rim edges. Of the eight spokes, the
+    four alternating ones whose total length is larger are dropped: they lead to the far corners.
 
     Returns those of `wanted` that the rule cannot serve: other valences, or faces other than quads.
     """

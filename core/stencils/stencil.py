@@ -82,7 +82,10 @@ class Stencil:
             members *= weight[part]
             begin = self.n_vertices
             np.add.reduceat(
-                members, offset[start:stop] - offset[start], axis=1, out=points[:, begin + start : begin + stop]
+                members,
+                offset[start:stop] - offset[start],
+                axis=1,
+                out=points[:, begin + start : begin + stop],
             )
 
         blocks.run(kernel, len(offset) - 1)

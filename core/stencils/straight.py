@@ -36,8 +36,8 @@ def fill_straight(
 
     Valence 5 and more: three pairs of ring vertices with the largest angles at the vertex. Valence 4 and 3:
     the ring is completed to six by midpoints of its longest edges, and opposite is three places on. Where the
-    ring has no such edges (faces other than triangles, non-manifold spots) valence 4 gives two pairs by angle,
-    and the mean of the ring fills the third.
+    ring has no such edges (faces other than triangles, non-manifold spots) valence 4 gives two pairs by
+    angle, and the mean of the ring fills the third.
 
     Parameters
     ----------

@@ -70,14 +70,12 @@ def fill_triangles(
         _fill_across(builder, members, regular)
 
 
-def _fill_rim(
-    builder: StencilBuilder, members: Members, wanted: NDArray[np.intp], *, is_mean: bool
-) -> None:
+def _fill_rim(builder: StencilBuilder, members: Members, wanted: NDArray[np.intp], *, is_mean: bool) -> None:
     """Fill the taps of manifold boundary vertices.
 
     The boundary neighbors take the first pair. Of the ring between them two points take the next two taps: at
-    regular valence the two that are there, else their mean (`is_mean`) or those a third from either end. Their
-    mirror images take the taps opposite.
+    regular valence the two that are there, else their mean (`is_mean`) or those a third from either end.
+    Their mirror images take the taps opposite.
     """
     connectivity = members.connectivity
     set_rim_pair(builder, members, wanted, RING[0], RING[3])

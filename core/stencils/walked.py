@@ -24,7 +24,8 @@ def make_walked_stencil(
     """Choose the points under the masks of a wide or cell-centered bank; see `make_stencil`.
 
     The taps of level l are 2^l edges apart. Around a cell that can only be so at level 0; the taps of coarser
-    levels lie evenly around a vertex, at odd multiples of 2^(l - 1), and so their coefficients live on vertices.
+    levels lie evenly around a vertex, at odd multiples of 2^(l - 1), and so their coefficients live on
+    vertices.
     """
     grid = Grid(connectivity, surface.vertices)
     if bank.is_cell_centered and level == 0:
@@ -62,7 +63,9 @@ def _fill(
         is_rim[:] = False
     builder.is_irregular |= chosen & ~is_regular
     regular = np.flatnonzero(is_regular)
-    _fill_directed(builder, grid, regular, connectivity.ring_offset[regular] + np.arange(n_directions)[:, None], ring)
+    _fill_directed(
+        builder, grid, regular, connectivity.ring_offset[regular] + np.arange(n_directions)[:, None], ring
+    )
     rim = np.flatnonzero(is_rim)
     _fill_directed(builder, grid, rim, _rim_directions(connectivity, rim, n_directions), ring)
     _fill_orbit_means(builder, grid, connectivity, np.flatnonzero(chosen & ~is_regular & ~is_rim), ring)

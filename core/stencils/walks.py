@@ -125,7 +125,7 @@ class Grid:
         return following
 
     def _straightest(self, vertices: NDArray[np.floating], wanted: NDArray[np.bool_]) -> Steps:
-        """Return, for each ring entry of the wanted vertices, the entry that makes the largest angle with it."""
+        """Return, for each ring entry of the wanted vertices, the entry at the largest angle from it."""
         connectivity = self._connectivity
         opposite = np.full(len(connectivity.ring), -1)
         for valence in np.unique(connectivity.valence[wanted]):

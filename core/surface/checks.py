@@ -21,12 +21,16 @@ def check_surface(surface: SurfaceMesh) -> float:
     if not surface.n_vertices:
         raise ValueError("The mesh is empty; it needs vertices and faces.")
     if not surface.n_faces:
-        raise ValueError(f"The mesh has {surface.n_vertices} vertices but no faces; only surfaces can be cleaned.")
+        raise ValueError(
+            f"The mesh has {surface.n_vertices} vertices but no faces; only surfaces can be cleaned."
+        )
     is_finite = np.isfinite(surface.vertices).all(axis=1)
     if not is_finite.all():
         wrong = np.flatnonzero(~is_finite)
         position = ", ".join(f"{value:g}" for value in surface.vertices[wrong[0]])
-        count = "is not a finite point" if len(wrong) == 1 else f"and {len(wrong) - 1} more are not finite points"
+        count = (
+            "is not a finite point" if len(wrong) == 1 else f"and {len(wrong) - 1} more are not finite points"
+        )
         raise ValueError(f"Vertex {wrong[0]} at ({position}) {count}; delete or move it first.")
     edge = mean_edge_length(surface)
     if not edge > 0.0:

@@ -174,7 +174,9 @@ def connect(surface: SurfaceMesh, blocks: Blocks | None = None) -> Connectivity:
         edge_face_count=count,
         face_across=face_across,
         has_quads=bool((sizes == 4).any()),
-        has_triangle_pairs=bool(((size_of_corner == 3) & (face_across >= 0) & (sizes[face_across] == 3)).any()),
+        has_triangle_pairs=bool(
+            ((size_of_corner == 3) & (face_across >= 0) & (sizes[face_across] == 3)).any()
+        ),
     )
 
 
@@ -240,7 +242,9 @@ def _walk_darts(
     rim = np.flatnonzero(across < 0).astype(np.int32)
     rim = rim[np.argsort(-pointed[rim], kind="stable")]  # the lower-numbered end is written last and wins
     start[owner[rim]] = rim
-    return _Fans(walk(following, start[vertices], owner, pointed, blocks), vertices, pointed, pointed[turned], 2)
+    return _Fans(
+        walk(following, start[vertices], owner, pointed, blocks), vertices, pointed, pointed[turned], 2
+    )
 
 
 def _store(

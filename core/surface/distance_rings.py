@@ -14,7 +14,7 @@ from .connectivity import Connectivity
 from .surface_mesh import SurfaceMesh
 
 LARGEST_CLIQUE = 8
-"""In faces with more corners only edge neighbors are adjacent; all pairs of a huge n-gon would fill memory."""
+"""In larger faces only edge neighbors are adjacent; all pairs of a huge n-gon would fill the memory."""
 
 
 class Adjacency(NamedTuple):
@@ -53,7 +53,9 @@ class Ring(NamedTuple):
     vertex: NDArray[np.intp]
 
 
-def distance_rings(adjacency: Adjacency, start: int, stop: int, distances: Collection[int]) -> dict[int, Ring]:
+def distance_rings(
+    adjacency: Adjacency, start: int, stop: int, distances: Collection[int]
+) -> dict[int, Ring]:
     """Find the vertices at exact distances from each of a range of vertices, by breadth-first search.
 
     Parameters

@@ -53,7 +53,7 @@ def face_centroids(surface: SurfaceMesh) -> NDArray[np.float64]:
     return centroids
 
 
-def unit_vectors(vectors: NDArray[np.floating]) -> NDArray[np.floating]:
+def unit_vectors(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return vectors scaled to length one along the last axis; zero vectors stay zero."""
     length = np.linalg.norm(vectors, axis=-1, keepdims=True)
     return np.divide(vectors, length, out=np.zeros_like(vectors), where=length > 0)
@@ -71,7 +71,8 @@ def vertex_normals(surface: SurfaceMesh) -> NDArray[np.float64]:
     """
     per_corner = np.repeat(face_area_vectors(surface), surface.face_sizes(), axis=0)
     sums = [
-        np.bincount(surface.corner_vertex, per_corner[:, axis], minlength=surface.n_vertices) for axis in range(3)
+        np.bincount(surface.corner_vertex, per_corner[:, axis], minlength=surface.n_vertices)
+        for axis in range(3)
     ]
     return unit_vectors(np.stack(sums, axis=1))
 
@@ -80,5 +81,7 @@ def signed_volume(surface: SurfaceMesh) -> float:
     """Return the enclosed volume, in cubed scene units, of a closed and consistently oriented mesh."""
     if not surface.n_faces:
         return 0.0
-    shifted = surface.with_vertices(surface.vertices.astype(np.float64) - surface.vertices.mean(0, np.float64))
+    shifted = surface.with_vertices(
+        surface.vertices.astype(np.float64) - surface.vertices.mean(0, np.float64)
+    )
     return float(np.einsum("fi,fi->", face_centroids(shifted), face_area_vectors(shifted)) / 3.0)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from ..blocks import Blocks
 
 LONGEST_WALK = 32
-"""Longer walks are ranked by pointer doubling, so that a fan of a million faces takes 20 steps, not a million."""
+"""Longer walks are ranked by pointer doubling: a fan of a million faces takes 20 steps, not a million."""
 
 
 class Walks(NamedTuple):
@@ -63,7 +63,9 @@ def walk(
     items, lengths, is_open = (np.concatenate(part) for part in zip(*parts, strict=True))
     is_long = lengths < 0
     if is_long.any():
-        long_items, long_lengths, is_open[is_long] = _rank_long_walks(following, starts[is_long], owner, neighbor)
+        long_items, long_lengths, is_open[is_long] = _rank_long_walks(
+            following, starts[is_long], owner, neighbor
+        )
         lengths[is_long] = long_lengths
         row_is_long = np.repeat(is_long, lengths)
         short_items, items = items, np.empty(lengths.sum(), np.int32)

@@ -79,7 +79,9 @@ class SurfaceMesh:
     def with_vertices(self, vertices: NDArray[np.floating]) -> SurfaceMesh:
         """Return a mesh with the same faces and other positions, shape (N, 3)."""
         if np.shape(vertices) != self.vertices.shape:
-            raise ValueError(f"The positions have shape {np.shape(vertices)}; expected {self.vertices.shape}.")
+            raise ValueError(
+                f"The positions have shape {np.shape(vertices)}; expected {self.vertices.shape}."
+            )
         return replace(self, vertices=vertices)
 
     @classmethod
@@ -111,14 +113,20 @@ class SurfaceMesh:
         if positions.ndim != 2 or positions.shape[1] != 3:
             raise ValueError(f"The positions have shape {positions.shape}; expected (N, 3).")
         sizes = np.fromiter((len(face) for face in faces), np.int64, len(faces))
-        flat = np.concatenate([np.asarray(face, np.int64) for face in faces]) if len(faces) else np.zeros(0, np.int64)
+        flat = (
+            np.concatenate([np.asarray(face, np.int64) for face in faces])
+            if len(faces)
+            else np.zeros(0, np.int64)
+        )
         loose = np.asarray(loose_edges, np.int64).reshape(-1, 2)
         for what, numbers in (("face", flat), ("loose edge", loose)):
             if numbers.size and not (numbers.min() >= 0 and numbers.max() < len(positions)):
                 wrong = numbers[(numbers < 0) | (numbers >= len(positions))].flat[0]
                 raise ValueError(f"A {what} names vertex {wrong}, but there are {len(positions)} vertices.")
         offset = np.concatenate(([0], np.cumsum(sizes))).astype(np.int32)
-        bare = cls(positions, flat.astype(np.int32), flat.astype(np.int32), offset, np.zeros((0, 2), np.int32))
+        bare = cls(
+            positions, flat.astype(np.int32), flat.astype(np.int32), offset, np.zeros((0, 2), np.int32)
+        )
         pairs = np.stack((flat, flat[bare.next_corner()]), axis=1)
         keys = np.sort(np.concatenate((pairs, loose)), axis=1)
         keys = keys[:, 0] * max(len(positions), 1) + keys[:, 1]

@@ -9,13 +9,26 @@ from numpy.typing import NDArray
 
 from ..frames import FilterBank
 from ..surface.surface_mesh import SurfaceMesh
-from .frame_transform import FrameCoefficients, FrameTransform, choose_frame, make_transform
+from .coefficients import FrameCoefficients
+from .frame_transform import FrameTransform
+from .make import choose_frame, make_transform
 
-__all__ = ["FrameCoefficients", "FrameTransform", "adjoint", "analyze", "choose_frame", "make_transform", "synthesize"]
+__all__ = [
+    "FrameCoefficients",
+    "FrameTransform",
+    "adjoint",
+    "analyze",
+    "choose_frame",
+    "make_transform",
+    "synthesize",
+]
 
 
 def analyze(
-    surface: SurfaceMesh, bank: str | FilterBank = "BOX_SPLINE_111", stencil: str = "STRAIGHT", n_levels: int = 1
+    surface: SurfaceMesh,
+    bank: str | FilterBank = "BOX_SPLINE_111",
+    stencil: str = "STRAIGHT",
+    n_levels: int = 1,
 ) -> FrameCoefficients:
     """Decompose a surface in float64; see `make_transform` for the parameters and errors."""
     return make_transform(surface, bank, stencil, n_levels).analyze(surface.vertices)

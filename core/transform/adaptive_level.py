@@ -22,7 +22,11 @@ class _Chunk:
     """Vertices with the same number of neighbors, and their taps."""
 
     def __init__(
-        self, bank: HarmonicBank | PairwiseBank, vertices: NDArray[np.intp], taps: NDArray[np.int32], begin: int
+        self,
+        bank: HarmonicBank | PairwiseBank,
+        vertices: NDArray[np.intp],
+        taps: NDArray[np.int32],
+        begin: int,
     ) -> None:
         self.bank = bank
         self.vertices = vertices
@@ -135,6 +139,13 @@ class AdaptiveLevel:
         return self.backward(next_low, self.pending(chunks))
 
 
+def _make_bank(
+    family: type[HarmonicBank] | type[PairwiseBank], valence: int, is_ordered: bool
+) -> HarmonicBank | PairwiseBank:
+    """Return the masks of a family for a valence."""
+    return HarmonicBank(valence, is_ordered) if issubclass(family, HarmonicBank) else PairwiseBank(valence)
+
+
 def _make_chunks(members: Members, family: type[HarmonicBank] | type[PairwiseBank]) -> list[_Chunk]:
     """Sort the vertices by the number of neighbors found and by whether these are in ring order."""
     connectivity = members.connectivity
@@ -149,7 +160,7 @@ def _make_chunks(members: Members, family: type[HarmonicBank] | type[PairwiseBan
     for is_ordered in (True, False):
         kind = connectivity.is_non_manifold != is_ordered
         for valence in np.unique(found[kind]):
-            bank = family(int(valence)) if family is PairwiseBank else family(int(valence), is_ordered)
+            bank = _make_bank(family, int(valence), is_ordered)
             group = np.flatnonzero(kind & (found == valence))
             size = max(1, SLOTS_PER_CHUNK // bank.n_bands)
             for part in np.split(group, range(size, len(group), size)):

@@ -8,71 +8,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import DTypeLike, NDArray
+from numpy.typing import NDArray
 
-from ..blocks import Blocks
-from ..frames import BANKS, FilterBank
-from ..frames.valence_masks import FAMILIES
-from ..stencils import make_stencil
-from ..stencils.dilation import dilate
-from ..stencils.members import Members, one_ring_members
-from ..surface.connectivity import Connectivity, connect
-from ..surface.distance_rings import edge_adjacency
-from ..surface.surface_mesh import SurfaceMesh
-from .adaptive_level import AdaptiveLevel
-from .lattice_level import LatticeLevel
+from .coefficients import FrameCoefficients
 from .level import Chunk, Level, Points, Visit
-
-
-@dataclass(frozen=True, eq=False)
-class FrameCoefficients:
-    """Frame coefficients of a surface, in the unit of its positions.
-
-    Attributes
-    ----------
-    low : ndarray, shape (N, 3)
-        The low-pass of the coarsest level, a smooth surface.
-    chunks : list of list of ndarray
-        For each level, finest first, the high bands chunk by chunk, each of shape (3, H, n).
-    transform : FrameTransform
-        The transform that made them.
-    """
-
-    low: NDArray[np.floating]
-    chunks: list[list[Chunk]]
-    transform: FrameTransform
-
-    def details(self, level: int) -> NDArray[np.floating]:
-        """Return the high bands of a level as one array, shape (H, n_sites, 3).
-
-        With masks that fit the valence, bands that a vertex does not have are zero.
-        """
-        stage = self.transform.levels[level]
-        chunks = self.chunks[level]
-        n_high = max((chunk.shape[1] for chunk in chunks), default=0)
-        bands = np.zeros((n_high, stage.n_sites, 3), self.low.dtype)
-        for sites, chunk in zip(stage.sites, chunks, strict=True):
-            bands[: chunk.shape[1], sites] = chunk.transpose(1, 2, 0)
-        return bands
-
-    def with_details(self, details: Sequence[NDArray[np.floating]], low: NDArray[np.floating]) -> FrameCoefficients:
-        """Return coefficients with other values, given as `details` and `low` return them."""
-        chunks = []
-        for stage, bands, old in zip(self.transform.levels, details, self.chunks, strict=True):
-            rows = [
-                np.ascontiguousarray(bands[: chunk.shape[1], sites].transpose(2, 0, 1), self.low.dtype)
-                for sites, chunk in zip(stage.sites, old, strict=True)
-            ]
-            chunks.append(rows)
-        return FrameCoefficients(np.asarray(low, self.low.dtype), chunks, self.transform)
-
-    def scaled(self, gains: Sequence[float]) -> FrameCoefficients:
-        """Return coefficients with the high bands of each level multiplied by a gain."""
-        chunks = [
-            [chunk * self.low.dtype.type(gain) for chunk in level]
-            for gain, level in zip(gains, self.chunks, strict=True)
-        ]
-        return FrameCoefficients(self.low, chunks, self.transform)
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,8 +45,8 @@ class FrameTransform:
     def adjoint(self, coefficients: FrameCoefficients) -> NDArray[np.floating]:
         """Apply the adjoint W*, shape (N, 3).
 
-        With masks that fit the valence it is taken with respect to `measures` and is the inverse; otherwise it
-        is the transposed matrix.
+        With masks that fit the valence it is taken with respect to `measures` and is the inverse; otherwise
+        it is the transposed matrix.
         """
         low = np.ascontiguousarray(coefficients.low.T, self.dtype)
         for level, chunks in zip(reversed(self.levels), reversed(coefficients.chunks), strict=True):
@@ -115,7 +54,7 @@ class FrameTransform:
         return np.ascontiguousarray(low.T)
 
     def measures(self) -> list[NDArray[np.float64]]:
-        """Return the measure of the surface at the input of each level and at the end, L + 1 of shape (N,)."""
+        """Return the measures at the input of each level and at the end, L + 1 arrays of shape (N,)."""
         one = np.ones(self.levels[0].n_sites)
         return [*(getattr(level, "measure", one) for level in self.levels), one]
 
@@ -128,135 +67,3 @@ class FrameTransform:
         for level, pending in zip(reversed(self.levels), reversed(waiting), strict=True):
             low = level.backward(low, pending)
         return low
-
-
-def make_transform(
-    surface: SurfaceMesh,
-    frame: str | FilterBank = "BOX_SPLINE_111",
-    stencil: str = "STRAIGHT",
-    n_levels: int = 1,
-    *,
-    boundary: str = "ALONG",
-    connectivity: Connectivity | None = None,
-    blocks: Blocks | None = None,
-    dtype: DTypeLike = np.float64,
-    only_used_bands: bool = False,
-) -> FrameTransform:
-    """Choose the stencils of every level on a surface and freeze them.
-
-    Parameters
-    ----------
-    surface : SurfaceMesh
-        The surface; not modified. The stencils of level j are chosen on its low-pass low_j.
-    frame : str or FilterBank
-        A name in `BANKS`, ADAPTIVE or PAIRWISE, or a bank of your own.
-    stencil : {"MEAN", "STRAIGHT", "ADAPTIVE"}
-        Rule at irregular vertices; ADAPTIVE takes masks that fit the valence, whatever the frame.
-    n_levels : int
-        Number of levels, at least 1.
-    boundary : {"ALONG", "FIXED", "FREE"}
-        See `make_stencil`.
-    connectivity : Connectivity, optional
-        Neighborhoods, if they are known already.
-    blocks : Blocks, optional
-        Threads to work on.
-    dtype : dtype
-        Precision of the transform.
-    only_used_bands : bool
-        Leave out the bands that never reach the surface (Remark 4.1).
-
-    Returns
-    -------
-    FrameTransform
-
-    Raises
-    ------
-    ValueError
-        If the frame is not known or does not fit the mesh, or the mesh is too small for so many levels.
-    """
-    blocks = blocks or Blocks(1)
-    connectivity = connectivity or connect(surface, blocks)
-    name = frame if isinstance(frame, str) else frame.name
-    if isinstance(frame, str) and frame not in BANKS and frame not in FAMILIES:
-        raise ValueError(f"The frame is {frame!r}; choose one of {', '.join([*BANKS, *FAMILIES])}.")
-    if n_levels < 1:
-        raise ValueError(f"The number of levels is {n_levels}; it must be at least 1.")
-    if stencil == "ADAPTIVE" or name in FAMILIES:
-        family = FAMILIES["PAIRWISE" if name == "PAIRWISE" else "ADAPTIVE"]
-        return _adaptive_transform(surface, family, n_levels, connectivity, blocks, np.dtype(dtype))
-    bank = BANKS[frame] if isinstance(frame, str) else frame
-    check_fit(bank, connectivity)
-    bands = bank.used_bands if only_used_bands else None
-    levels: list[LatticeLevel] = []
-    low = surface
-    for index in range(n_levels):
-        chosen = make_stencil(low, connectivity, stencil, boundary, blocks, bank, index)
-        level = LatticeLevel(chosen, bank, dtype, blocks, bands)
-        _check_reached(index, bool((chosen.slots != chosen.slots[:1]).any()))
-        levels.append(level)
-        if index + 1 < n_levels:
-            points = np.ascontiguousarray(low.vertices.T, dtype)
-            low = low.with_vertices(np.ascontiguousarray(level.forward(points, _ignore)[0].T))
-    return FrameTransform(tuple(levels), np.dtype(dtype))
-
-
-def choose_frame(frame: str, connectivity: Connectivity) -> str:
-    """Resolve the frame AUTO: box spline on triangles, linear spline on quads, ADAPTIVE on anything else."""
-    if frame != "AUTO":
-        return frame
-    has_face = ~connectivity.is_loose
-    if (connectivity.all_triangles == has_face).all():
-        return "BOX_SPLINE_111"
-    return "LINEAR_SPLINE" if (connectivity.all_quads == has_face).all() else "ADAPTIVE"
-
-
-def _adaptive_transform(
-    surface: SurfaceMesh,
-    family: type,
-    n_levels: int,
-    connectivity: Connectivity,
-    blocks: Blocks,
-    dtype: np.dtype,
-) -> FrameTransform:
-    """Choose the neighbors of every level, then pull the measures back from the coarsest."""
-    members = one_ring_members(connectivity)
-    adjacency = edge_adjacency(connectivity)
-    one = np.ones(surface.n_vertices)
-    low = surface
-    neighbors: list[Members] = []
-    for index in range(n_levels):
-        neighbors.append(dilate(members, low.vertices, adjacency, index, 1, blocks))
-        _check_reached(index, bool((neighbors[-1].near >= 0).any()))
-        if index + 1 < n_levels:
-            level = AdaptiveLevel(neighbors[-1], family, one, dtype, blocks)
-            points = np.ascontiguousarray(low.vertices.T, dtype)
-            low = low.with_vertices(np.ascontiguousarray(level.forward(points, _ignore)[0].T))
-    measure = one
-    levels: list[AdaptiveLevel] = []
-    for chosen in reversed(neighbors):
-        levels.insert(0, AdaptiveLevel(chosen, family, measure, dtype, blocks))
-        measure = levels[0].measure
-    return FrameTransform(tuple(levels), dtype)
-
-
-def _ignore(_: int, __: Chunk) -> None:
-    """Do nothing with the high bands of a chunk."""
-
-
-def _check_reached(index: int, is_reached: bool) -> None:
-    """Raise ValueError if no vertex has a neighbor at a level."""
-    if not is_reached:
-        raise ValueError(
-            f"The mesh is too small for {index + 1} levels: nothing is {2**index} edges apart; "
-            f"use {index} level{'s' if index != 1 else ''} or fewer."
-        )
-
-
-def check_fit(bank: FilterBank, connectivity: Connectivity) -> None:
-    """Raise ValueError if a frame's lattice has nothing in common with the mesh."""
-    if bank.lattice == "QUADS" and not connectivity.has_quads:
-        raise ValueError(
-            f"{bank.name} is a frame for quads, but the mesh has none; use a box spline frame or ADAPTIVE."
-        )
-    if bank.is_cell_centered and not (connectivity.has_quads or connectivity.has_triangle_pairs):
-        raise ValueError(f"{bank.name} needs quads or pairs of triangles, but the mesh has none; use ADAPTIVE.")

@@ -19,10 +19,10 @@ from .level import Chunk, Points, Visit
 class LatticeLevel:
     """One level of (3.6), (3.7) for vertex-centered and cell-centered banks.
 
-    Because the low-pass entry of every row v is 1, rebuilding is one sum: the low-pass, averaged over the sites
-    in which a vertex is a central tap, plus the same average of the high bands times v. A vertex that is
-    nowhere a central tap (cell-centered banks on borders) keeps its position in the low-pass, and so nothing is
-    lost there either.
+    Because the low-pass entry of every row v is 1, rebuilding is one sum: the low-pass, averaged over the
+    sites in which a vertex is a central tap, plus the same average of the high bands times v. A vertex that
+    is nowhere a central tap (cell-centered banks on borders) keeps its position in the low-pass, and so
+    nothing is lost there either.
 
     Parameters
     ----------
@@ -90,7 +90,9 @@ class LatticeLevel:
         self._blocks.run(kernel, stencil.n_sites)
         if self._incidence is None:
             return site_low, detail[0]
-        return self._incidence.mean(np.broadcast_to(site_low, detail.shape), low), self._incidence.mean(detail)
+        return self._incidence.mean(np.broadcast_to(site_low, detail.shape), low), self._incidence.mean(
+            detail
+        )
 
     def pending(self, chunks: Sequence[Chunk]) -> NDArray[np.floating]:
         """Return what given high bands add to the rebuilt surface; see `Level`."""
@@ -157,7 +159,9 @@ class _Incidence:
         flat = values.transpose(1, 0, 2).reshape(3, -1)
         result = np.zeros((3, len(self.is_served)), values.dtype) if rest is None else rest.copy()
         if len(self._begin):
-            result[:, self.is_served] = np.add.reduceat(flat[:, self._entries], self._begin, axis=1) * self._share
+            result[:, self.is_served] = (
+                np.add.reduceat(flat[:, self._entries], self._begin, axis=1) * self._share
+            )
         return result
 
     def transposed_mean(self, values: Points) -> Points:

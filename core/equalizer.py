@@ -1,0 +1,107 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Turn the scales of a surface up and down: one gain for each level of its frame transform."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import DTypeLike, NDArray
+
+from .blocks import Blocks
+from .denoising.constraints import find_constraints
+from .surface.checks import check_surface
+from .surface.connectivity import Connectivity, connect
+from .surface.surface_mesh import SurfaceMesh
+from .transform import choose_frame, make_transform
+
+HIGHEST_GAIN = 100.0
+
+
+def equalize(
+    surface: SurfaceMesh,
+    gains: Sequence[float],
+    *,
+    frame: str = "AUTO",
+    stencil: str = "STRAIGHT",
+    boundary: str = "ALONG",
+    weights: NDArray[np.floating] | None = None,
+    connectivity: Connectivity | None = None,
+    threads: int = 0,
+    dtype: DTypeLike = np.float32,
+) -> NDArray[np.floating]:
+    """Multiply the details of each level by a gain and rebuild the surface.
+
+    Parameters
+    ----------
+    surface : SurfaceMesh
+        The surface; not modified.
+    gains : sequence of float
+        One gain for each level, finest first: below 1 smooths that scale, above 1 exaggerates it, 1 keeps it.
+    frame, stencil, boundary : str
+        See `DenoiseSettings`.
+    weights : ndarray, shape (N,), optional
+        How much of the change each vertex takes, 0 to 1; all of it by default.
+    connectivity : Connectivity, optional
+        Neighborhoods of the mesh, if they are known already.
+    threads : int
+        Number of threads; 0 uses all cores.
+    dtype : dtype, optional
+        Precision of the transform.
+
+    Returns
+    -------
+    ndarray, shape (N, 3), dtype of the vertices
+        New positions; with all gains 1 the same bits.
+
+    Raises
+    ------
+    ValueError
+        In one sentence, if there is no gain, a gain is not a number from 0 to 100, the weights do not fit,
+        the frame does not fit the mesh, or the mesh is too small for so many levels.
+
+    Notes
+    -----
+    As the transform is linear, S' - S is the inverse transform of {(g_j - 1) high_j, 0}; it is added to the
+    positions, so that nothing is lost where gains are 1.
+    """
+    _check(gains, weights, surface.n_vertices)
+    edge = check_surface(surface)
+    positions = surface.vertices.astype(np.float64)
+    center = 0.5 * (positions.min(axis=0) + positions.max(axis=0))
+    normalized = (positions - center) / edge
+    with Blocks(threads) as blocks:
+        connectivity = connectivity or connect(surface, blocks)
+        transform = make_transform(
+            surface.with_vertices(normalized),
+            choose_frame(frame, connectivity),
+            stencil,
+            len(gains),
+            boundary=boundary,
+            connectivity=connectivity,
+            blocks=blocks,
+            dtype=dtype,
+            only_used_bands=True,
+        )
+        coefficients = transform.analyze(normalized).scaled([gain - 1.0 for gain in gains])
+        change = transform.synthesize(coefficients.without_low()).T.astype(np.float64)
+    constraints = find_constraints(surface, connectivity, boundary, None, change.dtype)
+    constraints.apply(change, np.zeros_like(change))
+    if weights is not None:
+        change *= weights
+    return (positions + edge * change.T).astype(surface.vertices.dtype)
+
+
+def _check(gains: Sequence[float], weights: NDArray[np.floating] | None, n_vertices: int) -> None:
+    """Raise ValueError unless gains and weights can be used."""
+    if not len(gains):
+        raise ValueError("There are no gains; give one for each level, finest first.")
+    for level, gain in enumerate(gains, 1):
+        if not 0.0 <= gain <= HIGHEST_GAIN:  # also refuses NaN
+            raise ValueError(f"The gain of level {level} is {gain:g}; it must be from 0 to {HIGHEST_GAIN:g}.")
+    if weights is not None:
+        if np.shape(weights) != (n_vertices,):
+            raise ValueError(f"The weights have shape {np.shape(weights)}; expected ({n_vertices},).")
+        if not np.isfinite(weights).all():
+            raise ValueError("A weight is not a finite number; weights must be from 0 to 1.")
