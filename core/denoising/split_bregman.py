@@ -102,6 +102,7 @@ class _Shrinkage:
 
     def __init__(self, level: Level, settings: DenoiseSettings) -> None:
         self._groups = [level.group_starts(index) for index in range(len(level.sites))]
+        self._unpenalized = [level.unpenalized(index) for index in range(len(level.sites))]
         self._residual: list[Chunk | None] = [None] * len(level.sites)  # b, zero at first
         self._threshold = settings.lambda_ / settings.mu
         self._kind = settings.shrinkage
@@ -112,6 +113,7 @@ class _Shrinkage:
         if residual is not None:
             high += residual
         cut = clipped(high, self._threshold, self._kind, self._groups[index])
+        cut[:, self._unpenalized[index]] = 0
         self._residual[index] = cut
         high -= cut
         high -= cut

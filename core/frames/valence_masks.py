@@ -86,6 +86,9 @@ class HarmonicBank:
         self.n_bands = valence + 1
         self._masks = harmonic_masks(valence) if is_ordered and valence <= LARGEST_MATRIX else None
         self.group_starts = harmonic_groups(valence) if self._masks is not None and valence else None
+        # Frequency 1 measures how the neighbors lie in the tangent plane, not how the surface bends:
+        # shrinking it would only pull vertices together. The paper's algorithms never use it either.
+        self.unpenalized = slice(1, 3) if self._masks is not None and valence > 2 else slice(0, 0)
         root = np.sqrt(self.weights)
         self._root = root
         normal = root - np.eye(1, valence + 1)[0]
@@ -131,6 +134,7 @@ class PairwiseBank:
         self._scale = np.sqrt(self.weights[self._first] * self.weights[self._second])
         self.n_bands = 1 + len(self._first)
         self.group_starts: NDArray[np.intp] | None = None
+        self.unpenalized = slice(0, 0)
 
     def apply(self, data: NDArray[np.floating]) -> NDArray[np.floating]:
         """Return low-pass and differences, shape (3, 1 + K (K + 1) / 2, n), of data (3, K + 1, n)."""

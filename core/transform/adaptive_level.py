@@ -27,8 +27,10 @@ class _Chunk:
         vertices: NDArray[np.intp],
         taps: NDArray[np.int32],
         begin: int,
+        unpenalized: slice,
     ) -> None:
         self.bank = bank
+        self.unpenalized = unpenalized
         self.vertices = vertices
         self.taps = taps  # (K + 1, n)
         self.place = slice(begin, begin + taps.size)  # where its taps stand in the flat list of all taps
@@ -45,6 +47,9 @@ class AdaptiveLevel:
         `HarmonicBank` or `PairwiseBank`.
     out_measure : ndarray, shape (N,)
         Measure m' of this level's coefficients.
+    boundary : {"ALONG", "FIXED", "FREE"}
+        Unless FREE, shrinkage leaves the one-sided rings of boundary vertices alone, which would pull the
+        border inwards.
     dtype : dtype
         Precision to work in.
     blocks : Blocks
@@ -61,18 +66,19 @@ class AdaptiveLevel:
         members: Members,
         family: type[HarmonicBank] | type[PairwiseBank],
         out_measure: NDArray[np.float64],
+        boundary: str,
         dtype: DTypeLike,
         blocks: Blocks,
     ) -> None:
         self._blocks = blocks.sized(1)
         self._dtype = np.dtype(dtype)
         self._n = members.connectivity.n_vertices
-        self._chunks = _make_chunks(members, family)
+        self._chunks = _make_chunks(members, family, boundary)
         taps = np.concatenate([chunk.taps.ravel() for chunk in self._chunks])
         flow = np.concatenate(
             [(chunk.bank.weights[:, None] * out_measure[chunk.vertices]).ravel() for chunk in self._chunks]
         )
-        self.measure = np.bincount(taps, flow, self._n)
+        self.measure = np.bincount(taps, flow, self._n).astype(np.float64, copy=False)
         # Every vertex is at least its own tap, so that no row of the transposed table is empty.
         self._order = np.argsort(taps, kind="stable")
         counts = np.bincount(taps, minlength=self._n)
@@ -100,6 +106,10 @@ class AdaptiveLevel:
     def group_starts(self, chunk: int) -> NDArray[np.intp] | None:
         """Return where groups of bands begin that are shrunk as one; see `Level`."""
         return self._chunks[chunk].bank.group_starts
+
+    def unpenalized(self, chunk: int) -> slice:
+        """Return the bands of frequency 1, or all on a border; see `Level`."""
+        return self._chunks[chunk].unpenalized
 
     def forward(self, low: Points, visit: Visit) -> tuple[Points, NDArray[np.floating]]:
         """Analyze a surface and begin to rebuild it; see `Level`."""
@@ -146,8 +156,10 @@ def _make_bank(
     return HarmonicBank(valence, is_ordered) if issubclass(family, HarmonicBank) else PairwiseBank(valence)
 
 
-def _make_chunks(members: Members, family: type[HarmonicBank] | type[PairwiseBank]) -> list[_Chunk]:
-    """Sort the vertices by the number of neighbors found and by whether these are in ring order."""
+def _make_chunks(
+    members: Members, family: type[HarmonicBank] | type[PairwiseBank], boundary: str
+) -> list[_Chunk]:
+    """Sort the vertices by the number of neighbors found and by whether these form a closed ring."""
     connectivity = members.connectivity
     n = connectivity.n_vertices
     owner = np.repeat(np.arange(n), connectivity.valence)
@@ -157,16 +169,18 @@ def _make_chunks(members: Members, family: type[HarmonicBank] | type[PairwiseBan
     near = members.near[is_found]
     chunks: list[_Chunk] = []
     begin = 0
-    for is_ordered in (True, False):
-        kind = connectivity.is_non_manifold != is_ordered
+    is_rim = connectivity.is_boundary & ~connectivity.is_non_manifold
+    for kind in (~is_rim & ~connectivity.is_non_manifold, is_rim, connectivity.is_non_manifold):
+        is_kept = kind is is_rim and boundary != "FREE"
         for valence in np.unique(found[kind]):
-            bank = _make_bank(family, int(valence), is_ordered)
+            bank = _make_bank(family, int(valence), kind is not connectivity.is_non_manifold)
+            unpenalized = slice(None) if is_kept else bank.unpenalized
             group = np.flatnonzero(kind & (found == valence))
             size = max(1, SLOTS_PER_CHUNK // bank.n_bands)
             for part in np.split(group, range(size, len(group), size)):
                 taps = np.empty((valence + 1, len(part)), np.int32)
                 taps[0] = part
                 taps[1:] = near[offset[part] + np.arange(valence)[:, None]]
-                chunks.append(_Chunk(bank, part, taps, begin))
+                chunks.append(_Chunk(bank, part, taps, begin, unpenalized))
                 begin += taps.size
     return chunks

@@ -73,6 +73,10 @@ class LatticeLevel:
         """Return None: every band is shrunk by itself."""
         return None
 
+    def unpenalized(self, chunk: int) -> slice:
+        """Return no bands: first differences never reach the surface, as v is zero there."""
+        return slice(0, 0)
+
     def forward(self, low: Points, visit: Visit) -> tuple[Points, NDArray[np.floating]]:
         """Analyze a surface and begin to rebuild it; see `Level`."""
         stencil, points = self.stencil, self._points

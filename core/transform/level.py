@@ -41,6 +41,10 @@ class Level(Protocol):
         """Return where groups of bands begin that vector shrinkage treats as one; None for single bands."""
         ...
 
+    def unpenalized(self, chunk: int) -> slice:
+        """Return the high bands that hold first differences only, which shrinkage leaves alone."""
+        ...
+
     def forward(self, low: Points, visit: Visit) -> tuple[Points, NDArray[np.floating]]:
         """Analyze a surface and begin to rebuild it.
 

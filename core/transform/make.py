@@ -75,7 +75,7 @@ def make_transform(
         raise ValueError(f"The number of levels is {n_levels}; it must be at least 1.")
     if stencil == "ADAPTIVE" or name in FAMILIES:
         family = FAMILIES["PAIRWISE" if name == "PAIRWISE" else "ADAPTIVE"]
-        return _adaptive_transform(surface, family, n_levels, connectivity, blocks, np.dtype(dtype))
+        return _adaptive_transform(surface, family, n_levels, boundary, connectivity, blocks, np.dtype(dtype))
     bank = BANKS[frame] if isinstance(frame, str) else frame
     check_fit(bank, connectivity)
     bands = bank.used_bands if only_used_bands else None
@@ -106,6 +106,7 @@ def _adaptive_transform(
     surface: SurfaceMesh,
     family: type,
     n_levels: int,
+    boundary: str,
     connectivity: Connectivity,
     blocks: Blocks,
     dtype: np.dtype,
@@ -120,13 +121,13 @@ def _adaptive_transform(
         neighbors.append(dilate(members, low.vertices, adjacency, index, 1, blocks))
         _check_reached(index, bool((neighbors[-1].near >= 0).any()))
         if index + 1 < n_levels:
-            level = AdaptiveLevel(neighbors[-1], family, one, dtype, blocks)
+            level = AdaptiveLevel(neighbors[-1], family, one, boundary, dtype, blocks)
             points = np.ascontiguousarray(low.vertices.T, dtype)
             low = low.with_vertices(np.ascontiguousarray(level.forward(points, _ignore)[0].T))
     measure: NDArray[np.float64] = one
     levels: list[AdaptiveLevel] = []
     for chosen in reversed(neighbors):
-        level = AdaptiveLevel(chosen, family, measure, dtype, blocks)
+        level = AdaptiveLevel(chosen, family, measure, boundary, dtype, blocks)
         levels.insert(0, level)
         measure = level.measure
     return FrameTransform(tuple(levels), dtype)
