@@ -11,8 +11,10 @@ from numpy.typing import DTypeLike, NDArray
 
 from .blocks import Blocks
 from .denoising.constraints import find_constraints
+from .settings import DenoiseSettings
 from .surface.checks import check_surface
 from .surface.connectivity import Connectivity, connect
+from .surface.normalization import displaced, normalize
 from .surface.surface_mesh import SurfaceMesh
 from .transform import choose_frame, make_transform
 
@@ -68,11 +70,9 @@ def equalize(
     """
     _check(gains, weights, surface.n_vertices)
     edge = check_surface(surface)
-    positions = surface.vertices.astype(np.float64)
-    center = 0.5 * (positions.min(axis=0) + positions.max(axis=0))
-    normalized = (positions - center) / edge
     with Blocks(threads) as blocks:
         connectivity = connectivity or connect(surface, blocks)
+        normalized = normalize(surface, connectivity, edge)
         transform = make_transform(
             surface.with_vertices(normalized),
             choose_frame(frame, connectivity),
@@ -86,11 +86,12 @@ def equalize(
         )
         coefficients = transform.analyze(normalized).scaled([gain - 1.0 for gain in gains])
         change = transform.synthesize(coefficients.without_low()).T.astype(np.float64)
-    constraints = find_constraints(surface, connectivity, boundary, None, change.dtype)
+    settings = DenoiseSettings(boundary=boundary)
+    constraints = find_constraints(surface, connectivity, settings, None, change.dtype)
     constraints.apply(change, np.zeros_like(change))
     if weights is not None:
         change *= weights
-    return (positions + edge * change.T).astype(surface.vertices.dtype)
+    return displaced(surface.vertices, edge * change.T)
 
 
 def _check(gains: Sequence[float], weights: NDArray[np.floating] | None, n_vertices: int) -> None:

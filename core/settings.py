@@ -8,6 +8,7 @@ scene settings and command line options are generated from its fields.
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from numbers import Integral, Real
@@ -206,7 +207,9 @@ def _check(info: SettingInfo, kind: str, value: Any) -> None:
         raise ValueError(f"{label} is {value!r}; it must be a {'whole ' if kind == 'int' else ''}number.")
     assert info.minimum is not None and info.maximum is not None
     if not info.minimum <= value <= info.maximum:  # also refuses NaN
-        raise ValueError(f"{label} is {value:g}; it must be between {info.minimum:g} and {info.maximum:g}.")
+        is_huge = isinstance(value, int) and abs(value) > sys.float_info.max
+        shown = "a huge number" if is_huge else f"{value:g}"
+        raise ValueError(f"{label} is {shown}; it must be between {info.minimum:g} and {info.maximum:g}.")
 
 
 class Preset(NamedTuple):

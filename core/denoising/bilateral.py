@@ -16,6 +16,7 @@ from ..surface.geometry import vertex_normals
 from ..surface.neighborhoods import vertices_within
 from ..surface.surface_mesh import SurfaceMesh
 from .constraints import Constraints
+from .progress import rms_motion
 from .report import Callback
 
 _Pairs = tuple[NDArray[np.intp], NDArray[np.intp]]
@@ -79,7 +80,7 @@ def bilateral_filter(
             normals: NDArray[np.floating] = normals,
             following: NDArray[np.floating] = following,
             sigma_s: float = sigma_s,
-        ) -> float:
+        ) -> None:
             center, member = pairs[start // blocks.block_size]
             squared, height = _offsets(points, normals, center, member)
             weight = np.exp(squared * dtype(-0.5 / settings.sigma_c**2))
@@ -88,14 +89,13 @@ def bilateral_filter(
             weight[squared > 4.0 * settings.sigma_c**2] = 0.0
             total = np.bincount(center - start, weight, stop - start)
             moved = np.bincount(center - start, weight * height, stop - start)
-            moved = np.divide(moved, total, out=np.zeros_like(moved), where=total > 0)
+            moved = np.divide(moved, total, out=np.zeros(stop - start), where=total > 0)
             following[:, start:stop] += normals[:, start:stop] * moved.astype(dtype)
-            return float(moved @ moved)
 
-        squares = blocks.run(kernel, noisy.shape[1])
+        blocks.run(kernel, noisy.shape[1])
         constraints.apply(following, noisy)
+        change = rms_motion(following, points, blocks)
         points = following
-        change = float(np.sqrt(sum(squares) / noisy.shape[1]))
         if callback is not None and callback(iteration / settings.iterations, change):
             return points, iteration, True
         if change < settings.tolerance:

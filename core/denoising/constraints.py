@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..settings import DenoiseSettings
 from ..stencils.boundary import boundary_corners
 from ..surface.connectivity import Connectivity
 from ..surface.geometry import vertex_normals
@@ -38,7 +39,7 @@ class Constraints:
 def find_constraints(
     surface: SurfaceMesh,
     connectivity: Connectivity,
-    boundary: str,
+    settings: DenoiseSettings,
     movable: NDArray[np.bool_] | None,
     dtype: np.dtype,
 ) -> Constraints:
@@ -50,8 +51,10 @@ def find_constraints(
         The noisy surface.
     connectivity : Connectivity
         Its neighborhoods.
-    boundary : {"FIXED", "ALONG", "FREE"}
-        FIXED pins boundary vertices; ALONG lets the corners of a border move along their normals only.
+    settings : DenoiseSettings
+        With the boundary FIXED, boundary vertices are pinned. With ALONG, the corners of a border may move
+        along their normals only; they are pinned if shrinkage depends on the axes, as what it does to the
+        corner of a tilted plane is not parallel to the plane.
     movable : ndarray, shape (N,), bool, or None
         Vertices that may move at all; None for all.
     dtype : dtype
@@ -64,13 +67,15 @@ def find_constraints(
     is_pinned = connectivity.is_loose.copy()
     if movable is not None:
         is_pinned |= ~movable
-    if boundary == "FIXED":
+    if settings.boundary == "FIXED":
         is_pinned |= connectivity.is_boundary
     railed = np.zeros(0, np.intp)
     rail = np.zeros((3, 0), dtype)
-    if boundary == "ALONG" and connectivity.is_boundary.any():
+    if settings.boundary == "ALONG" and connectivity.is_boundary.any():
         normals = vertex_normals(surface)
         railed = boundary_corners(surface.vertices, normals, connectivity)
+        if settings.method == "POSITIONS" and settings.shrinkage != "VECTOR":
+            is_pinned[railed] = True
         railed = railed[~is_pinned[railed]]
         rail = normals[railed].T.astype(dtype)
     return Constraints(np.flatnonzero(is_pinned), railed, rail)

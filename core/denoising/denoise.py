@@ -15,6 +15,7 @@ from ..settings import DenoiseSettings
 from ..surface.checks import check_surface
 from ..surface.connectivity import Connectivity, connect
 from ..surface.geometry import face_normals, signed_volume
+from ..surface.normalization import displaced, normalize
 from ..surface.surface_mesh import SurfaceMesh
 from ..transform import choose_frame, make_transform
 from .bilateral import bilateral_filter
@@ -75,16 +76,15 @@ def denoise(
     dtype = np.dtype(dtype)
     with Blocks(settings.threads) as blocks:
         connectivity = connectivity or connect(surface, blocks)
-        positions = surface.vertices.astype(np.float64)
-        center = 0.5 * (positions.min(axis=0) + positions.max(axis=0))
-        noisy = np.ascontiguousarray(((positions - center) / edge).T, dtype)
-        constraints = find_constraints(surface, connectivity, settings.boundary, movable, dtype)
+        normalized = normalize(surface, connectivity, edge)
+        noisy = np.ascontiguousarray(normalized.T, dtype)
+        constraints = find_constraints(surface, connectivity, settings, movable, dtype)
         if settings.method == "BILATERAL":
             solved = bilateral_filter(noisy, surface, connectivity, settings, constraints, blocks, callback)
         else:
             # Chosen on the normalized surface in full precision, so that rounding decides nothing.
             transform = make_transform(
-                surface.with_vertices((positions - center) / edge),
+                surface.with_vertices(normalized),
                 choose_frame(settings.frame, connectivity),
                 settings.stencil,
                 settings.levels,
@@ -97,7 +97,7 @@ def denoise(
             solved = split_bregman(noisy, transform, settings, constraints, blocks, callback)
     points, iterations, is_stopped = solved
     displacement = (points.astype(np.float64) - noisy).T * edge
-    vertices = (positions + displacement).astype(surface.vertices.dtype)
+    vertices = displaced(surface.vertices, displacement)
     report = _report(surface, connectivity, vertices, edge, iterations, is_stopped, began)
     return DenoiseResult(vertices, report)
 
@@ -129,7 +129,7 @@ def _report(
     volume_change = None
     if connectivity.is_closed:
         before = signed_volume(surface)
-        volume_change = (signed_volume(result) - before) / abs(before) if before else None
+        volume_change = (signed_volume(result) - before) / before if before else None
     return DenoiseReport(
         n_vertices=surface.n_vertices,
         n_faces=surface.n_faces,

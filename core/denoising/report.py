@@ -33,7 +33,7 @@ class DenoiseReport:
     flipped_faces: int
     """Faces whose normal turned by more than a right angle."""
     volume_change: float | None
-    """(after - before) / |before|; None unless the mesh is closed."""
+    """(after - before) / before; None unless the mesh is closed."""
     irregular_vertices: int
     """Vertices that took the stencil's rule for irregular vertices."""
     boundary_vertices: int

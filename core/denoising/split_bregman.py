@@ -12,6 +12,7 @@ from ..settings import DenoiseSettings
 from ..transform import FrameTransform
 from ..transform.level import Chunk, Level
 from .constraints import Constraints
+from .progress import rms_motion
 from .report import Callback
 from .shrinkage import clipped
 
@@ -65,7 +66,6 @@ def split_bregman(
     dtype = noisy.dtype.type
     mu, delta, damping = dtype(settings.mu), dtype(settings.delta), dtype(1.0 / (1.0 + settings.mu))
     visits = [_Shrinkage(level, settings) for level in transform.levels]
-    n = noisy.shape[1]
     current = noisy.copy()
     drift = np.zeros_like(noisy) if settings.delta > 0 else None  # c
 
@@ -74,7 +74,7 @@ def split_bregman(
 
         def update(
             start: int, stop: int, current: NDArray[np.floating] = current, moved: NDArray = moved
-        ) -> float:
+        ) -> None:
             part = slice(start, stop)
             block = moved[:, part]
             block *= mu
@@ -83,13 +83,11 @@ def split_bregman(
                 drift[:, part] += delta * (current[:, part] - noisy[:, part])
                 block -= drift[:, part]
             block *= damping
-            step = block - current[:, part]
-            return float(np.einsum("cn,cn->", step, step, dtype=np.float64))
 
-        squares = blocks.run(update, n)
+        blocks.run(update, noisy.shape[1])
         constraints.apply(moved, noisy)
+        change = rms_motion(moved, current, blocks)
         current = moved
-        change = float(np.sqrt(sum(squares) / max(n, 1)))
         if callback is not None and callback((iteration - 1) / (settings.iterations - 1), change):
             return current, iteration, True
         if change < settings.tolerance:

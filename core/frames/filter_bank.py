@@ -74,9 +74,9 @@ class FilterBank:
             raise ValueError(
                 f"{self.name}: the lattice is {self.lattice!r}; it must be TRIANGLES, QUADS or ANY."
             )
-        if self.offsets.ndim != 2 or self.offsets.shape[1] != 2:
+        if self.offsets.ndim != 2 or self.offsets.shape[1] != 2 or not len(self.offsets):
             raise ValueError(f"{self.name}: the offsets have shape {self.offsets.shape}; expected (T, 2).")
-        if self.masks.ndim != 2 or self.masks.shape[1] != len(self.offsets):
+        if self.masks.ndim != 2 or self.masks.shape[1] != len(self.offsets) or not len(self.masks):
             raise ValueError(
                 f"{self.name}: the masks have shape {self.masks.shape}; expected (B, {len(self.offsets)})."
             )

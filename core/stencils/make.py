@@ -19,6 +19,7 @@ from .triangles import ACROSS, fill_triangles
 from .walked import make_walked_stencil
 
 RULES = ("MEAN", "STRAIGHT")
+BOUNDARIES = ("ALONG", "FIXED", "FREE")
 
 
 def make_stencil(
@@ -57,10 +58,12 @@ def make_stencil(
     Raises
     ------
     ValueError
-        If the rule is not known.
+        If the rule or the boundary is not known.
     """
     if rule not in RULES:
         raise ValueError(f"The stencil rule is {rule!r}; choose one of {', '.join(RULES)}.")
+    if boundary not in BOUNDARIES:
+        raise ValueError(f"The boundary is {boundary!r}; choose one of {', '.join(BOUNDARIES)}.")
     blocks = blocks or Blocks(1)
     if bank.is_cell_centered or bank.reach > 1:
         return make_walked_stencil(surface, connectivity, boundary, bank, level)

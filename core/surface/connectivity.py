@@ -47,6 +47,8 @@ class Connectivity:
     face_across : ndarray, shape (C,), int32
         The face on the other side of each corner's edge; -1 at edges with one face or more than two. The
         faces around face f are `face_across[face_offset[f]:face_offset[f + 1]]`.
+    is_oriented : bool
+        Whether no two faces disagree about the direction of a common edge.
     has_quads, has_triangle_pairs : bool
         Whether there is a quad, and whether two triangles share an edge.
     """
@@ -63,6 +65,7 @@ class Connectivity:
     all_quads: NDArray[np.bool_]
     edge_face_count: NDArray[np.int32]
     face_across: NDArray[np.int32]
+    is_oriented: bool
     has_quads: bool
     has_triangle_pairs: bool
 
@@ -73,9 +76,11 @@ class Connectivity:
 
     @property
     def is_closed(self) -> bool:
-        """True if every edge with a face has two of them and no fan is broken, so that a volume exists."""
+        """True if the surface is oriented, manifold and without a border, so that it encloses a volume."""
         used = self.edge_face_count > 0
-        return bool(used.any() and (self.edge_face_count[used] == 2).all() and not self.is_non_manifold.any())
+        if not used.any() or not self.is_oriented or self.is_non_manifold.any():
+            return False
+        return bool((self.edge_face_count[used] == 2).all())
 
     def is_regular_triangle(self) -> NDArray[np.bool_]:
         """Return which vertices have a closed fan of six triangles, shape (N,), bool."""
@@ -173,6 +178,7 @@ def connect(surface: SurfaceMesh, blocks: Blocks | None = None) -> Connectivity:
         all_quads=has_face & ~_marked(n_vertices, corner_vertex[size_of_corner != 4]),
         edge_face_count=count,
         face_across=face_across,
+        is_oriented=not half_edges.is_twisted.any(),
         has_quads=bool((sizes == 4).any()),
         has_triangle_pairs=bool(
             ((size_of_corner == 3) & (face_across >= 0) & (sizes[face_across] == 3)).any()

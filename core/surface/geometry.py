@@ -74,7 +74,7 @@ def vertex_normals(surface: SurfaceMesh) -> NDArray[np.float64]:
         np.bincount(surface.corner_vertex, per_corner[:, axis], minlength=surface.n_vertices)
         for axis in range(3)
     ]
-    return unit_vectors(np.stack(sums, axis=1))
+    return unit_vectors(np.stack(sums, axis=1).astype(np.float64, copy=False))
 
 
 def signed_volume(surface: SurfaceMesh) -> float:

@@ -139,7 +139,7 @@ def _ignore(_: int, __: Chunk) -> None:
 
 def _check_reached(index: int, is_reached: bool) -> None:
     """Raise ValueError if no vertex has a neighbor at a level."""
-    if not is_reached:
+    if index and not is_reached:
         raise ValueError(
             f"The mesh is too small for {index + 1} levels: nothing is {2**index} edges apart; "
             f"use {index} level{'s' if index != 1 else ''} or fewer."

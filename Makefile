@@ -1,0 +1,71 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
+PYTHON ?= python3
+ENVIRONMENT := $(PYTHON) .ci/environment.py
+VERSION := $(shell sed -n 's/^version = "\(.*\)"/\1/p' blender_manifest.toml)
+ZIP := $(CURDIR)/build/framelet-$(VERSION).zip
+
+# The Blender versions that are supported, and the one for everyday work.
+BLENDERS := 4.2 4.5 5.2
+BLENDER := 4.5
+
+# Each pytest run is killed after this many seconds: a Blender that hangs must not hang us.
+TIMEOUT ?= 1200
+
+# Two targets must not make the same environment at once.
+.NOTPARALLEL:
+.DEFAULT_GOAL := help
+
+.PHONY: help
+help: ## Show this list
+	@awk -F ':.*## ' '/^[a-z0-9.-]+:.*## / {printf "  %-20s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+
+.PHONY: demo
+demo: ## Denoise a noisy mesh without a screen; pictures and numbers go to build/demo
+	$(ENVIRONMENT) run bpy-$(BLENDER) --timeout $(TIMEOUT) -- docs/demo/run.py --output build/demo
+
+.PHONY: test
+test: test-core test-$(BLENDER) test-installed-$(BLENDER) ## Test on one Blender: core, operators, installed zip
+
+.PHONY: test-all
+test-all: lint test-core $(BLENDERS:%=test-%) $(BLENDERS:%=test-installed-%) ## Lint, then test on every supported Blender
+
+.PHONY: lint
+lint: ## Check style and types
+	$(ENVIRONMENT) run core --timeout $(TIMEOUT) -- -m ruff check
+	$(ENVIRONMENT) run core --timeout $(TIMEOUT) -- -m ruff format --check
+	$(ENVIRONMENT) run core --timeout $(TIMEOUT) -- -m mypy
+
+.PHONY: format
+format: ## Format the code and fix what ruff can fix
+	$(ENVIRONMENT) run core -- -m ruff check --fix
+	$(ENVIRONMENT) run core -- -m ruff format
+
+.PHONY: test-core
+test-core: ## Test core/ and the release rules on plain Python and NumPy
+	$(ENVIRONMENT) run core --timeout $(TIMEOUT) -- -m pytest tests/core tests/release
+
+# test-4.2, test-4.5, test-5.2
+.PHONY: $(BLENDERS:%=test-%)
+test-4.2: ## Test the operators on Blender 4.2
+test-4.5: ## Test the operators on Blender 4.5
+test-5.2: ## Test the operators on Blender 5.2
+$(BLENDERS:%=test-%): test-%:
+	$(ENVIRONMENT) run bpy-$* --timeout $(TIMEOUT) -- -m pytest tests/blender
+
+.PHONY: $(BLENDERS:%=test-installed-%)
+test-installed-4.2: ## Install the zip on Blender 4.2 and test it
+test-installed-4.5: ## Install the zip on Blender 4.5 and test it
+test-installed-5.2: ## Install the zip on Blender 5.2 and test it
+$(BLENDERS:%=test-installed-%): test-installed-%: extension
+	FRAMELET_ZIP="$(ZIP)" $(ENVIRONMENT) run bpy-$* --timeout $(TIMEOUT) -- -m pytest tests/installed
+
+.PHONY: extension
+extension: ## Validate the extension and build its zip into build/
+	$(ENVIRONMENT) run bpy-$(BLENDER) --timeout $(TIMEOUT) -- .ci/extension.py
+
+.PHONY: clean
+clean: ## Remove all that was made, environments included
+	rm -rf build dist .venv .mypy_cache .pytest_cache .ruff_cache .hypothesis
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +

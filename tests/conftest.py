@@ -1,0 +1,51 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
+"""Make the repository root importable as `framelet`, and give fixtures to all tests."""
+
+import importlib.util
+import os
+import sys
+import zlib
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+
+
+def load_package() -> None:
+    """Load the root as the package `framelet`, whatever the name of the checkout folder."""
+    spec = importlib.util.spec_from_file_location(
+        "framelet", ROOT / "__init__.py", submodule_search_locations=[str(ROOT)]
+    )
+    package = importlib.util.module_from_spec(spec)
+    sys.modules["framelet"] = package
+    spec.loader.exec_module(package)
+
+
+# Before the test modules are imported, since they import from `framelet`.
+load_package()
+
+
+def pytest_collection_modifyitems(items):
+    """Mark the tests that use the development meshes, so `-m "not shared"` leaves them out."""
+    for item in items:
+        if "shared_meshes" in getattr(item, "fixturenames", ()):
+            item.add_marker("shared")
+
+
+@pytest.fixture
+def rng(request):
+    """Random numbers that are the same in every run of a test, and different between tests."""
+    return np.random.default_rng(zlib.crc32(request.node.name.encode()))
+
+
+@pytest.fixture(scope="session")
+def shared_meshes():
+    """Folder of the development meshes, which are too large for the repository."""
+    folder = Path(os.environ.get("FRAMELET_MESHES") or ROOT.parent / "shared" / "meshes")
+    if not folder.is_dir():
+        pytest.skip(f"development meshes not found at {folder}")
+    return folder

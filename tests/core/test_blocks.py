@@ -1,0 +1,131 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Blocks and threads: the same bits for any number of threads, and no Python loop over the vertices."""
+
+import cProfile
+import pstats
+
+import numpy as np
+import pytest
+from checks import TRIANGLE_PRESETS, assert_same_bits
+from framelet.core import PRESETS, SurfaceMesh, add_noise, compare, connect, denoise, make_stencil
+from framelet.core.blocks import BLOCK_SIZE, Blocks, available_cores
+from framelet.core.surface.geometry import mean_edge_length
+from meshes import flipped, mixed_sheet, noisy, pyramid, triangle_grid, triangle_torus, turned_over, union
+
+
+@pytest.fixture(scope="module")
+def large():
+    """A noisy mesh of more than two blocks, open, with irregular vertices and two that are not manifold."""
+    mesh = triangle_grid(190, 175)
+    rng = np.random.default_rng(5)
+    faces = mesh.corner_vertex.reshape(-1, 3)[rng.random(mesh.n_faces) > 0.01]
+    return noisy(SurfaceMesh.from_faces(mesh.vertices, faces), rng)
+
+
+@pytest.mark.parametrize("preset", TRIANGLE_PRESETS)
+def test_threads_do_not_change_a_bit(preset, large):
+    assert large.n_vertices > 2 * BLOCK_SIZE
+    settings = PRESETS[preset].settings.with_changes(iterations=2, delta=0.1, sigma_c=0.5)
+    changes, results = [], []
+    for threads in (1, 2, 4):
+        seen = []
+        result = denoise(
+            large, settings.with_changes(threads=threads), callback=lambda *s, seen=seen: seen.append(s)
+        )
+        changes.append(seen)
+        results.append(result.vertices)
+    assert_same_bits(results[0], results[1])
+    assert_same_bits(results[0], results[2])
+    assert changes[0] == changes[1] == changes[2]
+
+
+@pytest.mark.parametrize("preset", ["TRI_1", "TRI_2"])
+def test_nothing_happens_at_block_borders(preset, large):
+    """A patch around a border, cut out and solved alone, has the same inside: it reaches one hop a step."""
+    settings = PRESETS[preset].settings.with_changes(iterations=5, boundary="FREE")
+    result = denoise(large, settings, dtype=np.float64)
+    for border in (BLOCK_SIZE, 2 * BLOCK_SIZE):
+        near = np.arange(border - 10 * 175, min(border + 10 * 175, large.n_vertices))
+        faces = large.corner_vertex.reshape(-1, 3)
+        faces = faces[np.isin(faces, near).all(axis=1)]
+        patch = SurfaceMesh.from_faces(large.vertices[near], faces - near[0])
+        ratio = result.report.mean_edge_length / mean_edge_length(patch)  # lambda is in units of it
+        local = denoise(
+            patch, settings.with_changes(lambda_=settings.lambda_ * ratio), dtype=np.float64
+        ).vertices
+        inside = np.abs(near - border) < 4 * 175
+        assert np.abs(local[inside] - result.vertices[near][inside]).max() < 1e-9
+
+
+def calls(function):
+    """Return the number of Python function calls, those into numpy included."""
+    profile = cProfile.Profile()
+    profile.runcall(function)
+    return pstats.Stats(profile).total_calls
+
+
+def work(preset, mesh):
+    """Return a function that does all that a run does."""
+    settings = PRESETS[preset].settings.with_changes(threads=1, iterations=3)
+
+    def run():
+        result = denoise(mesh, settings)
+        compare(mesh.with_vertices(result.vertices), mesh)
+        add_noise(mesh)
+
+    denoise(triangle_grid(), settings)  # imports and caches
+    return run
+
+
+@pytest.mark.parametrize("preset", TRIANGLE_PRESETS)
+def test_python_calls_do_not_grow_with_the_mesh(preset, rng):
+    """One block either way: four copies of a mesh have the same kinds of vertices and cost the same calls."""
+    one = noisy(
+        union(
+            flipped(triangle_torus()), turned_over(mixed_sheet()), flipped(triangle_grid()), pyramid(40, True)
+        ),
+        rng,
+    )
+    four = union(*[one.with_vertices(one.vertices)] * 4)
+    assert 4 * one.n_vertices == four.n_vertices < BLOCK_SIZE
+    small, large = calls(work(preset, one)), calls(work(preset, four))
+    assert small > 100
+    assert large <= small + 20  # a few rounds more of pointer doubling
+
+
+def test_python_calls_grow_with_the_number_of_blocks_only(rng):
+    small_mesh, large_mesh = triangle_grid(128, 128), triangle_grid(256, 256)
+    small_mesh, large_mesh = noisy(small_mesh, rng), noisy(large_mesh, rng)
+    assert (small_mesh.n_vertices, large_mesh.n_vertices) == (BLOCK_SIZE, 4 * BLOCK_SIZE)
+    assert calls(work("TRI_2", large_mesh)) <= 4 * calls(work("TRI_2", small_mesh))
+
+
+def test_results_come_in_the_order_of_the_blocks():
+    for n_threads in (1, 3):
+        with Blocks(n_threads, block_size=4) as blocks:
+            assert blocks.run(lambda start, stop: (start, stop), 10) == [(0, 4), (4, 8), (8, 10)]
+            assert blocks.run(lambda start, stop: (start, stop), 0) == []
+            assert blocks.sized(7).run(lambda start, stop: stop - start, 10) == [7, 3]
+
+
+def test_an_error_in_a_kernel_comes_out():
+    def kernel(start, stop):
+        raise ArithmeticError(f"at {start}")
+
+    with Blocks(2, block_size=4) as blocks, pytest.raises(ArithmeticError, match="at 0"):
+        blocks.run(kernel, 10)
+
+
+def test_zero_threads_means_all_cores():
+    assert Blocks(0).n_threads == available_cores() >= 1
+    assert Blocks(3).n_threads == 3
+
+
+def test_stencils_do_not_depend_on_blocks(large):
+    connectivity = connect(large)
+    plain = make_stencil(large, connectivity)
+    with Blocks(2, block_size=1000) as blocks:
+        blocked = make_stencil(large, connect(large, blocks), blocks=blocks)
+    assert np.array_equal(plain.slots, blocked.slots)
+    assert np.array_equal(plain.virtual_vertex, blocked.virtual_vertex)

@@ -1,0 +1,174 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The mesh arrays and their geometry, against loops over the faces."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from checks import edge_length, lengths, random_rotation, read_only
+from framelet.core import SurfaceMesh
+from framelet.core.surface.geometry import (
+    face_area_vectors,
+    face_centroids,
+    face_normals,
+    mean_edge_length,
+    signed_volume,
+    unit_vectors,
+    vertex_normals,
+)
+from meshes import MESHES, faces_of, flipped, noisy, prism, quad_torus, soup, triangle_torus
+from twins import newell
+
+EVERY = pytest.mark.parametrize("name", MESHES)
+
+
+@EVERY
+def test_arrays_from_lists_of_faces(name):
+    mesh = MESHES[name]()
+    faces = faces_of(mesh)
+    assert [len(face) for face in faces] == mesh.face_sizes().tolist()
+    assert (mesh.n_faces, mesh.n_corners) == (len(faces), sum(map(len, faces)))
+    following, previous = mesh.next_corner(), mesh.previous_corner()
+    for begin, end in pairwise(mesh.face_offset.tolist()):
+        for corner in range(begin, end):
+            after = begin + (corner - begin + 1) % (end - begin)
+            assert following[corner] == after
+            assert previous[after] == corner
+            ends = mesh.corner_vertex[[corner, after]]
+            assert sorted(ends) == sorted(mesh.edges[mesh.corner_edge[corner]])
+    assert len({tuple(sorted(edge)) for edge in mesh.edges.tolist()}) == mesh.n_edges
+    assert (
+        mesh.corner_vertex.dtype
+        == mesh.corner_edge.dtype
+        == mesh.face_offset.dtype
+        == mesh.edges.dtype
+        == np.int32
+    )
+
+
+def test_loose_edges_that_a_face_has_too_are_one_edge():
+    mesh = SurfaceMesh.from_faces(np.eye(3), [(0, 1, 2)], [(1, 0), (2, 2)])
+    assert sorted(mesh.edges.tolist()) == [[0, 1], [0, 2], [1, 2], [2, 2]]
+
+
+def test_dtype_of_positions():
+    for given, kept in (
+        (np.float32, np.float32),
+        (np.float64, np.float64),
+        (np.float16, np.float64),
+        (int, np.float64),
+    ):
+        assert SurfaceMesh.from_faces(np.eye(3, dtype=given), [(0, 1, 2)]).vertices.dtype == kept
+    assert SurfaceMesh.from_faces([(0, 0, 0), (1, 0, 0), (0, 1, 0)], np.array([[0, 1, 2]])).n_faces == 1
+
+
+@pytest.mark.parametrize(
+    ("vertices", "faces", "loose", "message"),
+    [
+        (np.zeros((4, 2)), [(0, 1, 2)], (), r"The positions have shape \(4, 2\); expected \(N, 3\)"),
+        (np.zeros(3), [], (), r"The positions have shape \(3,\); expected \(N, 3\)"),
+        (np.eye(3), [(0, 1, 3)], (), "A face names vertex 3, but there are 3 vertices"),
+        (np.eye(3), [(0, 1, 2), (0, -1, 2)], (), "A face names vertex -1, but there are 3 vertices"),
+        (np.eye(3), [], [(0, 7)], "A loose edge names vertex 7, but there are 3 vertices"),
+        (np.zeros((0, 3)), [(0, 1, 2)], (), "A face names vertex 0, but there are 0 vertices"),
+    ],
+)
+def test_wrong_meshes_are_refused(vertices, faces, loose, message):
+    with pytest.raises(ValueError, match=message):
+        SurfaceMesh.from_faces(vertices, faces, loose)
+
+
+def test_other_positions_for_the_same_faces():
+    mesh = read_only(triangle_torus())
+    other = mesh.with_vertices(mesh.vertices + 1)
+    assert other.corner_vertex is mesh.corner_vertex
+    assert np.array_equal(other.vertices, mesh.vertices + 1)
+    with pytest.raises(ValueError, match=r"The positions have shape \(5, 3\); expected \(192, 3\)"):
+        mesh.with_vertices(np.zeros((5, 3)))
+
+
+@EVERY
+@pytest.mark.parametrize("shift", [0.0, 1e7])
+def test_areas_centroids_and_lengths(name, shift, rng):
+    mesh = noisy(MESHES[name](), rng)
+    mesh = read_only(mesh.with_vertices(mesh.vertices + shift))
+    tolerance = 1e-13 if not shift else 1e-7
+    areas, centroids, normals = face_area_vectors(mesh), face_centroids(mesh), face_normals(mesh)
+    sums = np.zeros((mesh.n_vertices, 3))
+    for f, face in enumerate(faces_of(mesh)):
+        points = mesh.vertices[face]
+        area = newell(points)
+        assert np.abs(areas[f] - area).max() < tolerance
+        assert np.abs(centroids[f] - sum(points) / len(points)).max() < max(
+            tolerance, 1e-15 * shift * len(points)
+        )
+        size = np.linalg.norm(area)
+        if size > 1e-6:
+            assert np.abs(normals[f] - area / size).max() < tolerance / size
+        for v in face:
+            sums[v] += area
+    found = vertex_normals(mesh)
+    size = lengths(sums)
+    for v in np.flatnonzero(size > 1e-3):
+        assert np.abs(found[v] - sums[v] / size[v]).max() < 10 * tolerance / size[v]
+    assert (found[size == 0] == 0).all()
+    assert mean_edge_length(mesh) == pytest.approx(edge_length(mesh), rel=1e-12)
+
+
+def test_area_vectors_of_triangles_and_quads(rng):
+    """Half the cross product of two edges, and half that of the diagonals, also of a bent quad."""
+    points = rng.normal(size=(7, 3))
+    area = face_area_vectors(SurfaceMesh.from_faces(points, [(0, 1, 2), (3, 4, 5, 6)]))
+    assert np.abs(area[0] - 0.5 * np.cross(points[1] - points[0], points[2] - points[0])).max() < 1e-14
+    assert np.abs(area[1] - 0.5 * np.cross(points[5] - points[3], points[6] - points[4])).max() < 1e-14
+
+
+def test_a_closed_surface_has_no_total_area_vector(rng):
+    for mesh in (flipped(triangle_torus()), quad_torus(), prism()):
+        assert np.abs(face_area_vectors(noisy(mesh, rng)).sum(axis=0)).max() < 1e-12
+
+
+def slow_volume(mesh):
+    """Return the sum of signed tetrahedra over fans around the centers of the faces."""
+    total = 0.0
+    for face in faces_of(mesh):
+        points = mesh.vertices[face]
+        center = points.mean(axis=0)
+        for k in range(len(face)):
+            total += np.linalg.det([center, points[k - 1], points[k]]) / 6
+    return total
+
+
+@pytest.mark.parametrize("make", [lambda: flipped(triangle_torus()), quad_torus, prism])
+def test_volume(make, rng):
+    mesh = noisy(make(), rng)
+    expected = slow_volume(mesh)
+    assert signed_volume(mesh) == pytest.approx(expected, rel=1e-12)
+    assert signed_volume(mesh.with_vertices(-mesh.vertices)) == pytest.approx(-expected, rel=1e-12)
+    assert signed_volume(mesh.with_vertices(mesh.vertices + 1e6)) == pytest.approx(expected, rel=1e-6)
+    assert signed_volume(mesh.with_vertices(mesh.vertices @ random_rotation(rng))) == pytest.approx(expected)
+
+
+def test_volume_of_known_bodies():
+    cube = prism(4)
+    assert abs(signed_volume(cube)) == pytest.approx(2.0, rel=1e-14)  # its base is a square of diagonal 2
+    assert abs(signed_volume(MESHES["octahedron"]())) == pytest.approx(4 / 3, rel=1e-14)
+    assert signed_volume(SurfaceMesh.from_faces(np.eye(3), [])) == 0.0
+
+
+def test_meshes_without_faces_and_faces_without_area():
+    bare = SurfaceMesh.from_faces(np.eye(3), [])
+    assert mean_edge_length(bare) == 0.0
+    assert face_area_vectors(bare).shape == face_centroids(bare).shape == (0, 3)
+    assert (vertex_normals(bare) == 0).all()
+    odd = SurfaceMesh.from_faces(np.eye(3), [(0, 1), (2,), (), (0, 0, 0), (0, 1, 2), ()])
+    assert (face_normals(odd)[[0, 1, 2, 3, 5]] == 0).all()
+    assert lengths(face_normals(odd)[4]) == pytest.approx(1.0)
+    assert np.isfinite(face_centroids(odd)).all()
+    assert np.isfinite(vertex_normals(soup(1, shortest=1))).all()
+
+
+def test_zero_vectors_stay_zero():
+    vectors = np.array([[0.0, 0.0, 0.0], [0.0, 3.0, 4.0]])
+    assert unit_vectors(vectors).tolist() == [[0.0, 0.0, 0.0], [0.0, 0.6, 0.8]]

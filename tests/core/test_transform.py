@@ -1,0 +1,233 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Perfect reconstruction on every mesh, and conserved energy where the mesh is regular."""
+
+import numpy as np
+import pytest
+from checks import TRIANGLE_BANKS, edge_length, lengths, read_only
+from framelet.core import BANKS, analyze, connect, make_stencil, make_transform, synthesize
+from framelet.core.blocks import Blocks
+from framelet.core.frames.valence_masks import FAMILIES
+from framelet.core.surface.geometry import mean_edge_length
+from mesh_files import mesh_files, read_mesh
+from meshes import MESHES, flipped, noisy, quad_torus, triangle_grid, triangle_torus, union
+
+PERFECT = 1e-12
+"""Error of reconstruction in float64, relative to the largest coordinate."""
+
+PERFECT_32 = 1e-5
+"""The same in float32, in mean edge lengths."""
+
+BANK = pytest.mark.parametrize("bank", TRIANGLE_BANKS)
+RULE = pytest.mark.parametrize("rule", ["MEAN", "STRAIGHT"])
+BOUNDARY = pytest.mark.parametrize("boundary", ["ALONG", "FIXED", "FREE"])
+
+
+def bands_of(transform, vertices):
+    """Return the coefficients of a transform of one level as (B, N, 3)."""
+    coefficients = transform.analyze(vertices)
+    return np.concatenate((coefficients.low[None], coefficients.details(0)))
+
+
+def assert_perfect(mesh, bank, rule, boundary, connectivity=None, n_levels=1, slack=1.0):
+    options = {"boundary": boundary, "connectivity": connectivity}
+    vertices = mesh.vertices.astype(np.float64)
+    transform = make_transform(mesh, bank, rule, n_levels, **options)
+    error = np.abs(transform.synthesize(transform.analyze(vertices)) - vertices).max()
+    assert error <= PERFECT * np.abs(vertices).max()
+    if mesh.n_vertices > 20000:
+        return  # once more in float32 would take as long again
+    edge = mean_edge_length(mesh)
+    center = 0.5 * (vertices.min(axis=0) + vertices.max(axis=0))
+    single = ((vertices - center) / (edge or 1.0)).astype(np.float32)
+    transform = make_transform(mesh.with_vertices(single), bank, rule, n_levels, **options, dtype=np.float32)
+    again = transform.synthesize(transform.analyze(single))
+    assert again.dtype == np.float32
+    # Coordinates of many edge lengths are themselves no finer than their float32 spacing.
+    quantum = np.spacing(np.abs(single).max())
+    assert np.abs(again.astype(np.float64) - single).max() <= slack * max(PERFECT_32, 4 * quantum)
+
+
+@BANK
+@RULE
+@BOUNDARY
+@pytest.mark.parametrize("name", MESHES)
+def test_perfect_reconstruction(name, bank, rule, boundary, rng):
+    assert_perfect(read_only(noisy(MESHES[name](), rng)), bank, rule, boundary)
+
+
+@pytest.mark.parametrize("kind", ["tri", "quad", "mixed", "nonmanifold", "scan", "bad"])
+def test_perfect_reconstruction_of_files(shared_meshes, kind):
+    """Every rule, border and bank on meshes up to 4000 vertices; one combination each on larger ones."""
+    every = [
+        (bank, r, b)
+        for r in ("MEAN", "STRAIGHT")
+        for b in ("ALONG", "FIXED", "FREE")
+        for bank in TRIANGLE_BANKS
+    ]
+    paths = mesh_files(shared_meshes, kind)
+    assert paths
+    n_checked = 0
+    for number, path in enumerate(paths):
+        mesh = read_mesh(path)
+        if not mesh.n_faces or not np.isfinite(mesh.vertices).all():
+            continue
+        connectivity = connect(mesh)
+        for bank, rule, boundary in every if mesh.n_vertices < 4000 else [every[5 * number % len(every)]]:
+            try:
+                assert_perfect(mesh, bank, rule, boundary, connectivity)
+            except ValueError as error:
+                assert mesh.n_vertices < 10 and "too small" in str(error), path.name
+                continue
+            n_checked += 1
+    assert n_checked >= len(paths) - 6
+
+
+@pytest.mark.parametrize("frame", [*BANKS, *FAMILIES])
+@pytest.mark.parametrize("n_levels", [1, 3])
+def test_perfect_reconstruction_of_every_frame_and_level(frame, n_levels, rng):
+    """Also where the lattice of the frame is not that of the faces.
+
+    Sums of up to 49 taps and three levels round more often: float32 gets four times the room.
+    """
+    meshes = [
+        union(flipped(triangle_torus()), MESHES["mixed sheet"](), quad_torus(), MESHES["three pages"]())
+    ]
+    meshes += [
+        flipped(triangle_grid()),
+        MESHES["turned-over sheet"](),
+        union(quad_torus(), MESHES["soup"]()),
+    ]
+    n_checked = 0
+    for mesh in meshes:
+        noise = read_only(noisy(mesh, rng))
+        for rule, boundary in (("MEAN", "FREE"), ("STRAIGHT", "ALONG"))[:: 1 if n_levels == 1 else -2]:
+            try:
+                assert_perfect(noise, frame, rule, boundary, n_levels=n_levels, slack=4.0)
+            except ValueError as error:
+                assert "is a frame for quads, but the mesh has none" in str(error)
+                continue
+            n_checked += 1
+    assert n_checked >= 3
+
+
+@pytest.mark.parametrize("frame", FAMILIES)
+@pytest.mark.parametrize("n_levels", [1, 2, 3])
+def test_frames_that_fit_the_valence_are_tight_on_every_mesh(frame, n_levels, rng):
+    """The adjoint with respect to the measures is the inverse: W*W = I, and energy is conserved."""
+    for name, build in MESHES.items():
+        mesh = read_only(noisy(build(), rng))
+        try:
+            transform = make_transform(mesh, frame, "ADAPTIVE", n_levels)
+        except ValueError as error:
+            assert n_levels > 1 and "too small" in str(error), name
+            continue
+        coefficients = transform.analyze(mesh.vertices)
+        error = np.abs(transform.adjoint(coefficients) - mesh.vertices).max()
+        assert error < PERFECT * np.abs(mesh.vertices).max(), name
+        measures = transform.measures()
+        assert min(measure.min() for measure in measures) > 0, name
+        energy = (measures[-1] * (coefficients.low**2).sum(axis=1)).sum()
+        for level in range(n_levels):
+            energy += (measures[level + 1] * (coefficients.details(level) ** 2).sum(axis=(0, 2))).sum()
+        assert energy == pytest.approx((measures[0] * (mesh.vertices**2).sum(axis=1)).sum(), rel=1e-12), name
+
+
+@pytest.mark.parametrize(
+    "frame", ["BOX_SPLINE_111", "LINEAR_SPLINE", "B_SPLINE_3", "BOX_SPLINE_FOUR_DIRECTION"]
+)
+@pytest.mark.parametrize("n_levels", [1, 2])
+def test_the_adjoint_is_the_transposed_matrix(frame, n_levels, rng):
+    """<W x, c> = <x, W' c> for arbitrary coefficients c."""
+    transform = make_transform(noisy(MESHES["mixed sheet"](), rng), frame, "STRAIGHT", n_levels)
+    x = rng.normal(size=(45, 3))
+    found = transform.analyze(x)
+    details = [rng.normal(size=found.details(level).shape) for level in range(n_levels)]
+    other = found.with_details(details, rng.normal(size=found.low.shape))
+    left = (found.low * other.low).sum()
+    left += sum((found.details(level) * details[level]).sum() for level in range(n_levels))
+    assert left == pytest.approx((x * transform.adjoint(other)).sum(), rel=1e-11, abs=1e-10)
+
+
+@BANK
+@RULE
+@pytest.mark.parametrize("sizes", [(5, 6), (12, 16)])
+def test_energy_on_a_regular_torus(bank, rule, sizes, rng):
+    """Tight: the coefficients of all bands together have the energy of the surface."""
+    mesh = triangle_torus(*sizes)
+    vertices = rng.normal(size=mesh.vertices.shape)
+    coefficients = bands_of(make_transform(mesh, bank, rule), vertices)
+    assert (coefficients**2).sum() == pytest.approx((vertices**2).sum(), rel=1e-13)
+
+
+@BANK
+@BOUNDARY
+@pytest.mark.parametrize("name", MESHES)
+def test_constants_and_linear_functions(name, boundary, bank, rng):
+    """A surface at one point has no details, and the transform is linear."""
+    mesh = MESHES[name]()
+    for rule in ("MEAN", "STRAIGHT"):
+        transform = make_transform(mesh, bank, rule, boundary=boundary)
+        point = rng.normal(size=3)
+        coefficients = bands_of(transform, np.tile(point, (mesh.n_vertices, 1)))
+        assert np.abs(coefficients[0] - point).max() < 1e-14
+        assert np.abs(coefficients[1:]).max() < 1e-14
+        one, two = rng.normal(size=(2, mesh.n_vertices, 3))
+        both = bands_of(transform, 2 * one - 3 * two)
+        assert np.abs(both - 2 * bands_of(transform, one) + 3 * bands_of(transform, two)).max() < 1e-13
+
+
+@BANK
+def test_analysis_is_masks_times_data_matrix(bank, rng):
+    mesh = noisy(union(*(build() for build in MESHES.values())), rng)
+    masks = TRIANGLE_BANKS[bank].masks
+    expected = np.zeros((len(masks), mesh.n_vertices, 3))
+    matrix = make_stencil(mesh, connect(mesh)).data_matrix(mesh.vertices)
+    for band, mask in enumerate(masks):
+        for tap, weight in enumerate(mask):
+            expected[band] += weight * matrix[tap]
+    tolerance = 1e-13 * np.abs(mesh.vertices).max()
+    assert np.abs(bands_of(make_transform(mesh, bank), mesh.vertices) - expected).max() < tolerance
+    with Blocks(2, block_size=13) as blocks:
+        blocked = bands_of(make_transform(mesh, bank, blocks=blocks), mesh.vertices)
+    assert np.abs(blocked - expected).max() < tolerance
+    coefficients = analyze(mesh, bank)
+    assert np.abs(coefficients.low - expected[0]).max() < tolerance
+    assert np.abs(synthesize(coefficients) - mesh.vertices).max() < 10 * tolerance
+
+
+def test_second_differences_vanish_inside_a_flat_regular_grid():
+    mesh = triangle_grid(6, 7)
+    coefficients = bands_of(make_transform(mesh), mesh.vertices)
+    inside = ~connect(mesh).is_boundary
+    assert np.abs(coefficients[1:4, inside]).max() < 1e-14
+    assert lengths(coefficients[4:, inside]).min() > 0.1 * edge_length(mesh)  # first differences do not
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"frame": "HAAR"}, "The frame is 'HAAR'; choose one of BOX_SPLINE_111, "),
+        ({"n_levels": 0}, "The number of levels is 0; it must be at least 1"),
+        ({"stencil": "BEST"}, "The stencil rule is 'BEST'; choose one of MEAN, STRAIGHT"),
+        (
+            {"n_levels": 9},
+            r"The mesh is too small for \d levels: nothing is \d+ edges apart; use \d levels? or fewer",
+        ),
+        (
+            {"n_levels": 9, "stencil": "ADAPTIVE"},
+            r"The mesh is too small for \d levels: nothing is \d+ edges apart",
+        ),
+        ({"frame": "LINEAR_SPLINE"}, "LINEAR_SPLINE is a frame for quads, but the mesh has none"),
+    ],
+)
+def test_what_does_not_fit_is_refused(changes, message):
+    with pytest.raises(ValueError, match=message):
+        make_transform(triangle_grid(), **changes)
+
+
+def test_cell_centered_frames_need_cells():
+    with pytest.raises(
+        ValueError, match="B_SPLINE_3 needs quads or pairs of triangles, but the mesh has none"
+    ):
+        make_transform(MESHES["single triangle"](), "B_SPLINE_3")
