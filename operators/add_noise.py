@@ -1,0 +1,84 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operator that adds noise, to try out what denoising does."""
+
+import bpy
+from bpy.props import FloatProperty, IntProperty
+
+from . import mesh_bridge, targets
+from .setting_values import as_typed
+
+
+def add_noise_to_object(obj: bpy.types.Object, sigma: float, seed: int) -> None:
+    """Add Gaussian noise along the normals to the mesh of an object; in Edit Mode to the selected vertices.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        A mesh object in Object Mode or Edit Mode; its active shape key is edited.
+    sigma : float
+        Standard deviation of the noise, in mean edge lengths.
+    seed : int
+        The same seed gives the same noise.
+
+    Raises
+    ------
+    ValueError
+        With a sentence that begins with the object's name. The mesh is as it was.
+    """
+    reason = mesh_bridge.refusal(obj)
+    if reason is not None:
+        raise ValueError(reason)
+    import numpy as np
+
+    from ..core import add_noise
+
+    surface, movable = mesh_bridge.read_surface_and_movable(obj)
+    if movable is not None and not movable.any():
+        raise ValueError(f"‘{obj.name}’ has no selected vertices; select where noise should be added.")
+    try:
+        vertices = add_noise(surface, sigma, seed)
+    except ValueError as error:
+        raise ValueError(f"‘{obj.name}’: {error}") from error
+    if movable is not None:
+        vertices = np.where(movable[:, None], vertices, surface.vertices)
+    mesh_bridge.write_vertices(obj, surface, vertices)
+
+
+class OBJECT_OT_framelet_add_noise(bpy.types.Operator):
+    """Move vertices along their normals by random amounts, to try out what denoising does"""
+
+    bl_idname = "object.framelet_add_noise"
+    bl_label = "Add Noise"
+    bl_options = {"REGISTER", "UNDO"}
+
+    sigma: FloatProperty(
+        name="Strength",
+        description="Standard deviation of the noise, in mean edge lengths: larger is noisier",
+        default=0.2,
+        min=0.0,
+        max=10.0,
+        soft_max=1.0,
+        step=1,
+        precision=3,
+    )
+    seed: IntProperty(name="Seed", description="Another number gives other noise of the same strength", min=0)
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Ask for a selected mesh, in Object Mode or Edit Mode."""
+        reason = targets.poll_reason(context)
+        if reason is not None:
+            cls.poll_message_set(reason)
+        return reason is None
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Add noise to every target."""
+        sigma = as_typed(self.sigma)
+        done = targets.run_on_targets(
+            self, context, lambda obj, _progress: add_noise_to_object(obj, sigma, self.seed)
+        )
+        if not done:
+            return {"CANCELLED"}
+        self.report({"INFO"}, f"Added noise of {sigma:g} edge lengths to {targets.names_text(list(done))}")
+        return {"FINISHED"}

@@ -1,0 +1,74 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operators that store bands as attributes, and remove them."""
+
+import bpy
+
+from . import band_storage, targets
+from .band_settings import StoreMixin
+from .bands import analyze_object, clear_object, megabytes_text
+from .setting_values import as_typed
+from .settings import FrameMixin
+
+
+class OBJECT_OT_framelet_analyze(FrameMixin, StoreMixin, bpy.types.Operator):
+    """Split the selected meshes into bands, and store these as attributes for nodes, scripts and display"""
+
+    bl_idname = "object.framelet_analyze"
+    bl_label = "Analyze"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Ask for a selected mesh, in Object Mode."""
+        reason = targets.poll_reason(context, in_object_mode=True)
+        if reason is not None:
+            cls.poll_message_set(reason)
+        return reason is None
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Analyze every target."""
+        done = targets.run_on_targets(
+            self,
+            context,
+            lambda obj, _progress: analyze_object(
+                obj, self.frame, self.stencil, self.levels, self.boundary, as_typed(self.max_megabytes)
+            ),
+        )
+        if not done:
+            return {"CANCELLED"}
+        n_bands = sum(sum(note.n_bands) for note, _ in done.values())
+        n_bytes = sum(size for _, size in done.values())
+        self.report(
+            {"INFO"}, f"Stored {n_bands} bands of {targets.names_text(list(done))}: {megabytes_text(n_bytes)}"
+        )
+        return {"FINISHED"}
+
+
+class OBJECT_OT_framelet_clear(bpy.types.Operator):
+    """Remove all bands and colors that Framelet stored on the selected meshes"""
+
+    bl_idname = "object.framelet_clear"
+    bl_label = "Clear Bands"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Ask for a selected mesh with something to remove, in Object Mode."""
+        reason = targets.poll_reason(context, in_object_mode=True)
+        if reason is None and not any(
+            band_storage.has_traces(obj.data) for obj in targets.target_objects(context)
+        ):
+            reason = "The selected meshes have nothing to remove"
+        if reason is not None:
+            cls.poll_message_set(reason)
+        return reason is None
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Clear every target."""
+        done = targets.run_on_targets(self, context, lambda obj, _progress: clear_object(obj))
+        if not done:
+            return {"CANCELLED"}
+        context.window_manager.framelet_band_range.names = ""
+        self.report({"INFO"}, f"Removed the bands of {targets.names_text(list(done))}")
+        return {"FINISHED"}

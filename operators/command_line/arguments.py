@@ -1,0 +1,153 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Options of the command line, made from the fields of DenoiseSettings.
+
+Names, ranges, words and defaults are those of `core.settings`; a new field there is a new option here.
+"""
+
+from __future__ import annotations
+
+import argparse
+import textwrap
+from collections.abc import Callable, Iterable
+from dataclasses import Field, fields
+from typing import Any
+
+from ...core.settings import DEFAULT_PRESET, PRESETS, DenoiseSettings, SettingInfo
+
+
+class HelpFormatter(argparse.HelpFormatter):
+    """A formatter that keeps the lines of a help text, and words with dashes whole."""
+
+    def _split_lines(self, text: str, width: int) -> list[str]:
+        wrapped = []
+        for line in text.splitlines():
+            indent = "  " if line.startswith("- ") else ""
+            wrapped += textwrap.wrap(line, width, subsequent_indent=indent, break_on_hyphens=False)
+        return wrapped
+
+
+def option_name(field_name: str) -> str:
+    """Return the option of a field: ``--sigma-c`` for ``sigma_c``, ``--lambda`` for ``lambda_``."""
+    return "--" + as_word(field_name.rstrip("_"))
+
+
+def as_word(identifier: str) -> str:
+    """Return an identifier as it is typed: ``tri-1`` for ``TRI_1``."""
+    return identifier.lower().replace("_", "-")
+
+
+def add_setting_options(parser: argparse.ArgumentParser) -> None:
+    """Add ``--preset`` and one option for each field of DenoiseSettings to a parser."""
+    algorithm = parser.add_argument_group("algorithm")
+    numbers = parser.add_argument_group("numbers", "Lengths are in mean edge lengths of the mesh.")
+    algorithm.add_argument(
+        "--preset",
+        type=_choice_type(PRESETS),
+        metavar=_choice_list(PRESETS),
+        default=DEFAULT_PRESET,
+        help=_escaped(
+            f"Start from these settings; other options override them (default: {as_word(DEFAULT_PRESET)})"
+            + _describe((key, preset.description) for key, preset in PRESETS.items())
+        ),
+    )
+    for item in fields(DenoiseSettings):
+        info: SettingInfo = item.metadata["info"]
+        group = algorithm if info.choices else numbers
+        group.add_argument(
+            option_name(item.name),
+            dest=item.name,
+            default=None,  # tells what was typed from what the preset says
+            type=_value_type(item),
+            metavar=_metavar(item),
+            help=_escaped(_help(item)),
+        )
+
+
+def settings_from(arguments: argparse.Namespace) -> DenoiseSettings:
+    """Return the settings of the preset, with the options that were given put over them."""
+    given = {item.name: getattr(arguments, item.name) for item in fields(DenoiseSettings)}
+    changes = {name: value for name, value in given.items() if value is not None}
+    return PRESETS[arguments.preset].settings.with_changes(**changes)
+
+
+def _value_type(item: Field) -> Callable[[str], Any]:
+    """Return the function that reads the value of a field and checks it."""
+    info: SettingInfo = item.metadata["info"]
+    if info.choices:
+        return _choice_type([choice.identifier for choice in info.choices])
+    read, wanted = (int, "a whole number") if item.type == "int" else (float, "a number")
+
+    def value_of(text: str) -> int | float:
+        try:
+            value = read(text)
+        except ValueError:
+            raise argparse.ArgumentTypeError(f"{text!r} is not {wanted}") from None
+        try:
+            DenoiseSettings(**{item.name: value})
+        except ValueError as error:
+            raise argparse.ArgumentTypeError(str(error)) from None
+        return value
+
+    return value_of
+
+
+def _choice_type(identifiers: Iterable[str]) -> Callable[[str], str]:
+    """Return a function that reads one of some identifiers, in any case, with dashes or underscores."""
+    names = tuple(identifiers)
+
+    def identifier_of(text: str) -> str:
+        identifier = text.upper().replace("-", "_")
+        if identifier not in names:
+            choices = ", ".join(as_word(name) for name in names)
+            raise argparse.ArgumentTypeError(f"{text!r} is not one of {choices}")
+        return identifier
+
+    return identifier_of
+
+
+def _metavar(item: Field) -> str:
+    """Return what stands for the value in the help text."""
+    info: SettingInfo = item.metadata["info"]
+    if info.choices:
+        return _choice_list(choice.identifier for choice in info.choices)
+    return "N" if item.type == "int" else "X"
+
+
+def _choice_list(identifiers: Iterable[str]) -> str:
+    """Return the choices as argparse shows them."""
+    return "{" + ",".join(as_word(identifier) for identifier in identifiers) + "}"
+
+
+def _help(item: Field) -> str:
+    """Return label, description, defaults and choices of a field."""
+    info: SettingInfo = item.metadata["info"]
+    text = f"{info.description} (default: {_default_text(item.name)})"
+    if as_word(info.label) != option_name(item.name).lstrip("-"):
+        text = f"{info.label} ({info.symbol}): {text}" if info.symbol else f"{info.label}: {text}"
+    return text + _describe((choice.identifier, choice.description) for choice in info.choices)
+
+
+def _default_text(name: str) -> str:
+    """Return the default of a field, and the presets that have another one."""
+
+    def shown(value: Any) -> str:
+        return as_word(value) if isinstance(value, str) else f"{value:g}"
+
+    default = getattr(PRESETS[DEFAULT_PRESET].settings, name)
+    text = shown(default)
+    for key, preset in PRESETS.items():
+        value = getattr(preset.settings, name)
+        if value != default:
+            text += f"; preset {as_word(key)}: {shown(value)}"
+    return text
+
+
+def _describe(choices: Iterable[tuple[str, str]]) -> str:
+    """Return choices and their descriptions, a line each."""
+    return "".join(f"\n- {as_word(identifier)}: {description}" for identifier, description in choices)
+
+
+def _escaped(text: str) -> str:
+    """Return a help text in which argparse finds no formatting."""
+    return text.replace("%", "%%")

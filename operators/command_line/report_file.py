@@ -1,0 +1,69 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The report of a run as a JSON file."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from ...core.denoising.report import DenoiseReport
+from ...core.settings import DenoiseSettings
+from .version import blender_version, framelet_version
+
+
+def write_report(
+    path: Path,
+    *,
+    source: Path,
+    target: Path,
+    preset: str,
+    settings: DenoiseSettings,
+    reports: Sequence[tuple[str, DenoiseReport]],
+    skipped: Sequence[tuple[str, str]],
+) -> None:
+    """Write what was done.
+
+    Parameters
+    ----------
+    path : Path
+        The JSON file.
+    source, target : Path
+        What was read and written, as it was typed.
+    preset : str
+        Key of the preset that the settings started from.
+    settings : DenoiseSettings
+        The settings used; their names in the file are those of the fields, so that
+        ``DenoiseSettings(**report["settings"])`` gives them back.
+    reports : sequence of (str, DenoiseReport)
+        For each object its name and report.
+    skipped : sequence of (str, str)
+        For each object that was left as it is its name and the reason.
+    """
+    content = {
+        "framelet": framelet_version(),
+        "blender": blender_version(),
+        "input": str(source),
+        "output": str(target),
+        "preset": preset,
+        "settings": asdict(settings),
+        "objects": [{"name": name, **asdict(report)} for name, report in reports],
+        "skipped": [{"name": name, "reason": reason} for name, reason in skipped],
+    }
+    text = json.dumps(_plain(content), indent=2, ensure_ascii=False, allow_nan=False)
+    path.write_text(text + "\n", encoding="utf-8")
+
+
+def _plain(value: Any) -> Any:
+    """Return a value with NumPy's scalars as Python's, and numbers that JSON has no word for as None."""
+    if isinstance(value, dict):
+        return {key: _plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    if hasattr(value, "item"):
+        value = value.item()
+    return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -1,0 +1,104 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operator that measures how far a mesh is from another one of the same topology."""
+
+from typing import TYPE_CHECKING
+
+import bpy
+from bpy.props import StringProperty
+
+from . import mesh_bridge
+from .filled_reports import fill_comparison
+from .scene_units import length_text, surface_in_scene
+
+if TYPE_CHECKING:
+    from ..core import Comparison
+
+
+def compare_objects(obj: bpy.types.Object, other: bpy.types.Object) -> "Comparison":
+    """Compare the meshes of two objects, both with the scale of the first and wherever they stand.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        The object to judge.
+    other : bpy.types.Object
+        The object to compare with; its mesh has the same faces.
+
+    Returns
+    -------
+    Comparison
+        Lengths are in scene units.
+
+    Raises
+    ------
+    ValueError
+        With a sentence that begins with the object's name.
+    """
+    for each in (obj, other):
+        if each.type != "MESH":
+            raise ValueError(f"‘{each.name}’ is not a mesh; choose two mesh objects.")
+    from ..core import compare
+
+    surfaces = [surface_in_scene(obj, mesh_bridge.read_surface(each)) for each in (obj, other)]
+    try:
+        return compare(*surfaces)
+    except ValueError as error:
+        raise ValueError(f"‘{obj.name}’ and ‘{other.name}’: {error}") from error
+
+
+class OBJECT_OT_framelet_compare(bpy.types.Operator):
+    """Measure how far the active mesh is from the other selected one, which must have the same faces"""
+
+    bl_idname = "object.framelet_compare"
+    bl_label = "Compare"
+    bl_options = {"REGISTER"}
+
+    other: StringProperty(
+        name="Other",
+        description="Name of the object to compare with; empty takes the other selected mesh object",
+    )
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Ask for an active mesh."""
+        obj = context.active_object
+        if obj is None or obj.type != "MESH":
+            cls.poll_message_set("The active object must be a mesh")
+            return False
+        return True
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Compare, and keep the result for the sidebar."""
+        obj = context.active_object
+        try:
+            other = self._find_other(context)
+            comparison = compare_objects(obj, other)
+        except ValueError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        fill_comparison(context.window_manager.framelet_comparison, obj.name, other.name, comparison)
+        edges = comparison.rms_distance / comparison.mean_edge_length
+        self.report(
+            {"INFO"},
+            f"‘{obj.name}’ against ‘{other.name}’: {comparison.mean_angle:.3f}° mean angle, "
+            f"{length_text(context.scene, comparison.rms_distance)} RMS distance ({edges:.3f} edge lengths)",
+        )
+        return {"FINISHED"}
+
+    def _find_other(self, context: bpy.types.Context) -> bpy.types.Object:
+        """Return the object to compare with."""
+        if self.other:
+            found = context.scene.objects.get(self.other)
+            if found is None:
+                raise ValueError(f"‘{self.other}’ is not an object of this scene.")
+            return found
+        others = [
+            obj for obj in context.selected_objects if obj.type == "MESH" and obj != context.active_object
+        ]
+        if len(others) != 1:
+            raise ValueError(
+                f"‘{context.active_object.name}’ needs one other selected mesh to compare with; "
+                f"{len(others)} are selected."
+            )
+        return others[0]

@@ -1,0 +1,57 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operator behind the button Denoise."""
+
+import bpy
+
+from . import targets
+from .denoise_object import denoise_and_measure
+from .filled_reports import fill_report
+from .scene_units import length_text
+from .setting_values import PROPERTY_NAMES, fill, has_effect, to_settings
+from .settings import SettingsMixin
+
+
+class OBJECT_OT_framelet_denoise(SettingsMixin, bpy.types.Operator):
+    """Remove noise from the selected meshes; in Edit Mode only the selected vertices move"""
+
+    bl_idname = "object.framelet_denoise"
+    bl_label = "Denoise"
+    bl_options = {"REGISTER", "UNDO", "PRESET"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Ask for a selected mesh, in Object Mode or Edit Mode."""
+        reason = targets.poll_reason(context)
+        if reason is not None:
+            cls.poll_message_set(reason)
+        return reason is None
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        """Show, when adjusting the last operation, the settings that the method uses."""
+        layout = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        for name in PROPERTY_NAMES:
+            if has_effect(self.method, name):
+                layout.prop(self, name)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Denoise every target and fill the report of the last run."""
+        settings = to_settings(self)
+        # The panel for adjusting the last operation shows the values that were used, defaults included.
+        fill(self, settings)
+        measured = targets.run_on_targets(
+            self, context, lambda obj, progress: denoise_and_measure(obj, settings, progress)
+        )
+        if not measured:
+            return {"CANCELLED"}
+        report = context.window_manager.framelet_report
+        fill_report(report, measured)
+        self.report(
+            {"INFO"},
+            f"Denoised {targets.names_text(list(measured))}: {report.n_moved:,} of {report.n_vertices:,} "
+            f"vertices moved, {length_text(context.scene, report.displacement_rms)} RMS "
+            f"({report.displacement_rms_edges:.3f} edge lengths), in {report.seconds:.2f} s",
+        )
+        return {"FINISHED"}

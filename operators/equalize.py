@@ -1,0 +1,121 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operator that turns the scales of a mesh up and down."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import bpy
+
+from . import mesh_bridge, targets
+from .band_settings import EQUALIZER_NAMES, GAIN_NAMES, EqualizerMixin
+from .scene_units import displacement_in_scene, length_text
+from .setting_values import as_typed
+from .settings import FrameMixin
+
+
+def equalize_object(
+    obj: bpy.types.Object,
+    gains: Sequence[float],
+    frame: str = "AUTO",
+    stencil: str = "STRAIGHT",
+    boundary: str = "ALONG",
+    vertex_group: str = "",
+    invert: bool = False,
+) -> tuple[float, float]:
+    """Multiply the details of an object's mesh by a gain for each level; in Edit Mode at selected vertices.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        A mesh object in Object Mode or Edit Mode; its active shape key is edited.
+    gains : sequence of float
+        One for each level, finest first.
+    frame, stencil, boundary : str
+        See `DenoiseSettings`.
+    vertex_group : str
+        Name of a group whose weights scale the change of each vertex; empty for none.
+    invert : bool
+        Take one minus the weights.
+
+    Returns
+    -------
+    rms, maximum : float
+        How far vertices moved, in scene units.
+
+    Raises
+    ------
+    ValueError
+        With a sentence that names the object. The mesh is as it was.
+    """
+    reason = mesh_bridge.refusal(obj)
+    if reason is not None:
+        raise ValueError(reason)
+    import numpy as np
+
+    from ..core import equalize
+
+    surface, movable = mesh_bridge.read_surface_and_movable(obj)
+    if movable is not None and not movable.any():
+        raise ValueError(f"‘{obj.name}’ has no selected vertices; select what should be equalized.")
+    weights = None if movable is None else movable.astype(np.float64)
+    if vertex_group:
+        group = mesh_bridge.read_weights(obj, vertex_group)
+        group = 1.0 - group if invert else group
+        weights = group if weights is None else weights * group
+    try:
+        vertices = equalize(
+            surface, gains, frame=frame, stencil=stencil, boundary=boundary, weights=weights
+        )
+    except ValueError as error:
+        raise ValueError(f"‘{obj.name}’: {error}") from error
+    mesh_bridge.write_vertices(obj, surface, vertices)
+    return displacement_in_scene(obj, surface.vertices, vertices)
+
+
+class OBJECT_OT_framelet_equalize(FrameMixin, EqualizerMixin, bpy.types.Operator):
+    """Smooth or exaggerate the details of the selected meshes, scale by scale; in Edit Mode of selected vertices"""
+
+    bl_idname = "object.framelet_equalize"
+    bl_label = "Equalize"
+    bl_options = {"REGISTER", "UNDO", "PRESET"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Ask for a selected mesh, in Object Mode or Edit Mode."""
+        reason = targets.poll_reason(context)
+        if reason is not None:
+            cls.poll_message_set(reason)
+        return reason is None
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Show, when adjusting the last operation, the gains of the levels in use."""
+        layout = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        for name in EQUALIZER_NAMES:
+            if name not in GAIN_NAMES[self.levels :]:
+                layout.prop(self, name)
+        for name in ("frame", "stencil", "boundary"):
+            layout.prop(self, name)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Equalize every target."""
+        gains = [as_typed(getattr(self, name)) for name in GAIN_NAMES[: self.levels]]
+        done = targets.run_on_targets(
+            self,
+            context,
+            lambda obj, _progress: equalize_object(
+                obj, gains, self.frame, self.stencil, self.boundary, self.vertex_group, self.invert
+            ),
+        )
+        if not done:
+            return {"CANCELLED"}
+        largest = max(maximum for _, maximum in done.values())
+        self.report(
+            {"INFO"},
+            f"Equalized {targets.names_text(list(done))}: vertices moved by up to "
+            f"{length_text(context.scene, largest)}",
+        )
+        return {"FINISHED"}

@@ -1,0 +1,274 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Blender meshes as arrays and back: with `band_storage` the only file that reads or writes mesh data.
+
+In Object Mode the arrays come from the mesh, in Edit Mode from the BMesh of the edit session. With shape keys
+the active key is what is read and edited, as in Blender's own Edit Mode. Nothing but positions is written.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import bmesh
+import bpy
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from ..core import SurfaceMesh
+
+
+def ownership_refusal(obj: bpy.types.Object | None) -> str | None:
+    """Say in one sentence why nothing can be written to the mesh of an object; None if it can be."""
+    if obj is None:
+        return "There is no active object; select a mesh object."
+    name = f"‘{obj.name}’"
+    if obj.type != "MESH":
+        return f"{name} is not a mesh; select mesh objects, or convert it first (Object > Convert > Mesh)."
+    mesh = obj.data
+    if mesh.library is not None:
+        return (
+            f"{name} uses a mesh linked from {mesh.library.filepath}; "
+            "make it local first (Object > Relations > Make Local)."
+        )
+    if mesh.override_library is not None or not mesh.is_editable:
+        return (
+            f"{name} uses a mesh that is a library override; "
+            "make it local first (Object > Relations > Make Local)."
+        )
+    return None
+
+
+def refusal(obj: bpy.types.Object | None) -> str | None:
+    """Say in one sentence why the mesh of an object cannot be edited; None if it can be."""
+    reason = ownership_refusal(obj)
+    if reason is not None:
+        return reason
+    name, mesh = f"‘{obj.name}’", obj.data
+    if obj.mode not in {"OBJECT", "EDIT"}:
+        return f"{name} is in another mode; switch to Object Mode or Edit Mode."
+    key = obj.active_shape_key
+    if key is not None and key.lock_shape:
+        return f"The active shape key ‘{key.name}’ of {name} is locked; unlock it or choose another one."
+    n_faces = len(bmesh.from_edit_mesh(mesh).faces) if mesh.is_editmode else len(mesh.polygons)
+    if n_faces == 0:
+        return f"{name} has no faces; Framelet works on surfaces."
+    return None
+
+
+def read_surface(obj: bpy.types.Object) -> SurfaceMesh:
+    """Return the mesh of an object as arrays, with the positions of its active shape key.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        A mesh object; in Edit Mode the state of the edit session is read.
+
+    Returns
+    -------
+    SurfaceMesh
+        Copies of the arrays, positions in object space as float32; modifiers are not applied.
+    """
+    return read_surface_and_movable(obj)[0]
+
+
+def read_surface_and_movable(obj: bpy.types.Object) -> tuple[SurfaceMesh, NDArray[np.bool_] | None]:
+    """Return the mesh as arrays and, in Edit Mode, which vertices may move.
+
+    Returns
+    -------
+    surface : SurfaceMesh
+        As from `read_surface`.
+    movable : ndarray of bool, shape (N,), or None
+        True for the selected vertices that are not hidden; None, for all, in Object Mode.
+    """
+    mesh = obj.data
+    if not mesh.is_editmode:
+        return _read_arrays(mesh, _active_key(obj)), None
+    # A temporary mesh gives arrays without a Python loop over the BMesh.
+    temporary = bpy.data.meshes.new(".framelet")
+    try:
+        bmesh.from_edit_mesh(mesh).to_mesh(temporary)
+        movable = _read_flag(temporary, ".select_vert") & ~_read_flag(temporary, ".hide_vert")
+        return _read_arrays(temporary, None), movable
+    finally:
+        bpy.data.meshes.remove(temporary)
+
+
+def read_weights(obj: bpy.types.Object, group_name: str) -> NDArray[np.float64]:
+    """Return the weights of a vertex group, 0 for vertices that are not in it.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        A mesh object in Object Mode or Edit Mode.
+    group_name : str
+        Name of a vertex group of the object.
+
+    Returns
+    -------
+    ndarray, shape (N,), float64
+
+    Raises
+    ------
+    ValueError
+        In one sentence, if the object has no such group.
+    """
+    import numpy as np
+
+    group = obj.vertex_groups.get(group_name)
+    if group is None:
+        raise ValueError(f"‘{obj.name}’ has no vertex group ‘{group_name}’; choose one that it has.")
+    mesh, number = obj.data, group.index
+    # Blender gives no array of these weights, so that this is the one loop over vertices.
+    if mesh.is_editmode:
+        edit_mesh = bmesh.from_edit_mesh(mesh)
+        layer = edit_mesh.verts.layers.deform.active
+        if layer is None:
+            return np.zeros(len(edit_mesh.verts))
+        return np.array([vert[layer].get(number, 0.0) for vert in edit_mesh.verts], np.float64)
+    weights = np.zeros(len(mesh.vertices))
+    for index, vertex in enumerate(mesh.vertices):
+        for item in vertex.groups:
+            if item.group == number:
+                weights[index] = item.weight
+    return weights
+
+
+def write_vertices(obj: bpy.types.Object, before: SurfaceMesh, vertices: NDArray[np.floating]) -> None:
+    """Move the vertices of an object's mesh; those that did not move keep their bits.
+
+    With shape keys the active key is edited. If the Key is relative, keys that depend on the active one shift
+    with it, and the mesh itself follows the reference key.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        The object whose mesh is changed.
+    before : SurfaceMesh
+        What `read_surface` returned.
+    vertices : ndarray, shape (N, 3)
+        New positions in object space.
+    """
+    import numpy as np
+
+    # Compared by value, so that a zero that only changed its sign keeps its bits too.
+    new = np.asarray(vertices, np.float32)
+    moved = np.flatnonzero((new != before.vertices).any(axis=1))
+    if len(moved) == 0:
+        return
+    mesh = obj.data
+    if mesh.is_editmode:
+        _write_edit_mesh(mesh, moved, new)
+        return
+    positions = before.vertices.astype(np.float32)
+    positions[moved] = new[moved]
+    active = _active_key(obj)
+    if active is None:
+        _write_positions(mesh, positions)
+    else:
+        _write_key_points(active, positions)
+        dependent = _dependent_keys(mesh.shape_keys, active)
+        offset = positions[moved] - before.vertices[moved]
+        for key in dependent:
+            shifted = _read_key_points(key)
+            shifted[moved] += offset
+            _write_key_points(key, shifted)
+        reference = mesh.shape_keys.reference_key
+        if reference in [active, *dependent]:
+            _write_positions(mesh, _read_key_points(reference))
+    mesh.update()
+
+
+def _write_edit_mesh(mesh: bpy.types.Mesh, moved: NDArray[np.intp], vertices: NDArray[np.float32]) -> None:
+    """Move vertices in the edit session of a mesh; its other modes and windows follow."""
+    edit_mesh = bmesh.from_edit_mesh(mesh)
+    edit_mesh.verts.ensure_lookup_table()
+    verts = edit_mesh.verts
+    for index, position in zip(moved.tolist(), vertices[moved].tolist(), strict=True):
+        verts[index].co = position
+    edit_mesh.normal_update()
+    bmesh.update_edit_mesh(mesh, loop_triangles=True, destructive=False)
+
+
+def _read_arrays(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey | None) -> SurfaceMesh:
+    """Read the arrays of a mesh, with the positions of a shape key if one is given."""
+    import numpy as np
+
+    from ..core import SurfaceMesh
+
+    n_corners, n_faces = len(mesh.loops), len(mesh.polygons)
+    if key is None:
+        vertices = np.empty((len(mesh.vertices), 3), np.float32)
+        if len(vertices):
+            mesh.attributes["position"].data.foreach_get("vector", vertices.reshape(-1))
+    else:
+        vertices = _read_key_points(key)
+    edges = np.empty((len(mesh.edges), 2), np.int32)
+    mesh.edges.foreach_get("vertices", edges.reshape(-1))
+    corner_vertex = np.empty(n_corners, np.int32)
+    corner_edge = np.empty(n_corners, np.int32)
+    face_offset = np.full(n_faces + 1, n_corners, np.int32)
+    if n_faces:
+        mesh.attributes[".corner_vert"].data.foreach_get("value", corner_vertex)
+        mesh.attributes[".corner_edge"].data.foreach_get("value", corner_edge)
+        mesh.polygons.foreach_get("loop_start", face_offset[:-1])
+    return SurfaceMesh(vertices, corner_vertex, corner_edge, face_offset, edges)
+
+
+def _read_flag(mesh: bpy.types.Mesh, name: str) -> NDArray[np.bool_]:
+    """Read a vertex attribute of truth values; Blender leaves it away when all are false."""
+    import numpy as np
+
+    values = np.zeros(len(mesh.vertices), np.bool_)
+    attribute = mesh.attributes.get(name)
+    if attribute is not None:
+        attribute.data.foreach_get("value", values)
+    return values
+
+
+def _write_positions(mesh: bpy.types.Mesh, positions: NDArray[np.float32]) -> None:
+    """Write the positions of the mesh itself."""
+    mesh.attributes["position"].data.foreach_set("vector", positions.reshape(-1))
+
+
+def _active_key(obj: bpy.types.Object) -> bpy.types.ShapeKey | None:
+    """Return the shape key that is edited; None without shape keys."""
+    keys = obj.data.shape_keys
+    if keys is None:
+        return None
+    return obj.active_shape_key or keys.reference_key
+
+
+def _dependent_keys(keys: bpy.types.Key, active: bpy.types.ShapeKey) -> list[bpy.types.ShapeKey]:
+    """Return the keys that are relative to a key, directly or through others."""
+    if not keys.use_relative:
+        return []
+    dependent: list[bpy.types.ShapeKey] = []
+    found = [active]
+    while found:
+        base = found.pop()
+        followers = [
+            key
+            for key in keys.key_blocks
+            if key.relative_key == base and key != active and key not in dependent
+        ]
+        dependent += followers
+        found += followers
+    return dependent
+
+
+def _read_key_points(key: bpy.types.ShapeKey) -> NDArray[np.float32]:
+    """Read the positions of a shape key, shape (N, 3)."""
+    import numpy as np
+
+    positions = np.empty((len(key.points), 3), np.float32)
+    key.points.foreach_get("co", positions.reshape(-1))
+    return positions
+
+
+def _write_key_points(key: bpy.types.ShapeKey, positions: NDArray[np.float32]) -> None:
+    """Write the positions of a shape key."""
+    key.points.foreach_set("co", positions.reshape(-1))

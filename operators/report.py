@@ -1,0 +1,77 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the last runs did, kept on the window manager for the sidebar to show.
+
+The classes have no methods, for the reason given in `setting_values`; `filled_reports` fills them.
+"""
+
+from typing import Any
+
+import bpy
+from bpy.props import BoolProperty, FloatProperty, IntProperty, StringProperty
+
+
+def _length(name: str, description: str) -> Any:
+    """Return the property of a length in scene units."""
+    return FloatProperty(name=name, description=description, unit="LENGTH", precision=5)
+
+
+def _edges(name: str, description: str) -> Any:
+    """Return the property of a length in mean edge lengths."""
+    return FloatProperty(name=name, description=description, precision=3)
+
+
+class FrameletReport(bpy.types.PropertyGroup):
+    """The last denoising run, all of its objects taken together."""
+
+    names: StringProperty(name="Objects", description="The objects that were denoised, separated by commas")
+    n_objects: IntProperty(name="Objects", description="Number of objects; 0 before the first run")
+    n_vertices: IntProperty(name="Vertices", description="Number of vertices, those that stayed included")
+    n_moved: IntProperty(name="Moved", description="Number of vertices that moved")
+    iterations: IntProperty(
+        name="Iterations", description="Iterations that ran, the largest number of any object"
+    )
+    displacement_rms: _length("Displacement", "Root mean square over all vertices, in scene units")
+    displacement_max: _length("Largest Displacement", "How far the farthest vertex moved, in scene units")
+    displacement_rms_edges: _edges(
+        "In Edge Lengths", "Root mean square over all vertices, in mean edge lengths"
+    )
+    displacement_max_edges: _edges(
+        "In Edge Lengths", "How far the farthest vertex moved, in mean edge lengths"
+    )
+    flipped_faces: IntProperty(
+        name="Flipped Faces", description="Faces that turned by more than a right angle"
+    )
+    is_closed: BoolProperty(
+        name="Closed", description="All meshes are closed, so that their volumes are known"
+    )
+    volume_change: FloatProperty(
+        name="Volume",
+        description="Change of the volume, the largest of any closed mesh",
+        subtype="PERCENTAGE",
+    )
+    irregular_vertices: IntProperty(name="Irregular", description="Vertices that took the irregular rule")
+    boundary_vertices: IntProperty(name="Boundary", description="Vertices on open borders")
+    non_manifold_vertices: IntProperty(name="Non-Manifold", description="Vertices where the surface branches")
+    loose_vertices: IntProperty(name="Loose", description="Vertices without a face; they do not move")
+    seconds: FloatProperty(name="Time", description="Seconds for all objects", precision=2)
+
+
+class FrameletComparison(bpy.types.PropertyGroup):
+    """The last comparison of two meshes of the same topology."""
+
+    object_name: StringProperty(
+        name="Object", description="The object that was compared; empty before the first time"
+    )
+    other_name: StringProperty(name="Other", description="The object it was compared with")
+    mean_angle: FloatProperty(
+        name="Mean Angle", description="Mean angle of face normals, in degrees", precision=3
+    )
+    max_angle: FloatProperty(name="Largest Angle", description="Largest angle of face normals, in degrees")
+    rms_distance: _length("Distance", "Root mean square of the distances of vertices, in scene units")
+    max_distance: _length("Largest Distance", "Largest distance of two vertices, in scene units")
+    rms_distance_edges: _edges("In Edge Lengths", "Root mean square of the distances, in mean edge lengths")
+    max_distance_edges: _edges("In Edge Lengths", "Largest distance, in mean edge lengths")
+    flipped_faces: IntProperty(
+        name="Flipped Faces", description="Faces that differ by more than a right angle"
+    )

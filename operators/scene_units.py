@@ -1,0 +1,71 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Lengths as the scene shows them: with the object's scale, in the scene's units."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import bpy
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from ..core import SurfaceMesh
+
+
+def linear_part(obj: bpy.types.Object) -> NDArray[np.float64]:
+    """Return the rotation and scale of an object, shape (3, 3); it is applied to rows as `rows @ part.T`."""
+    import numpy as np
+
+    return np.array(obj.matrix_world, np.float64)[:3, :3]
+
+
+def displacement_in_scene(
+    obj: bpy.types.Object, before: NDArray[np.floating], after: NDArray[np.floating]
+) -> tuple[float, float]:
+    """Return how far the vertices of an object moved in the scene.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        Its scale counts, also where it differs between the axes.
+    before, after : ndarray, shape (N, 3)
+        Positions in object space.
+
+    Returns
+    -------
+    rms, maximum : float
+        Over all vertices, in scene units.
+    """
+    import numpy as np
+
+    moved = after.astype(np.float64) - before
+    squares = np.square(moved @ linear_part(obj).T).sum(axis=1)
+    return float(np.sqrt(squares.mean())), float(np.sqrt(squares.max()))
+
+
+def surface_in_scene(obj: bpy.types.Object, surface: SurfaceMesh) -> SurfaceMesh:
+    """Return a surface with the rotation and scale of an object, but not its place in the scene."""
+    import numpy as np
+
+    part = linear_part(obj)
+    if np.array_equal(part, np.eye(3)):
+        return surface
+    return surface.with_vertices(surface.vertices.astype(np.float64) @ part.T)
+
+
+def length_text(scene: bpy.types.Scene, length: float) -> str:
+    """Return a length in words, in the units that the scene shows."""
+    units = scene.unit_settings
+    if units.system == "NONE":
+        return f"{length:.4g}"
+    return bpy.utils.units.to_string(
+        units.system,
+        "LENGTH",
+        length * units.scale_length,
+        precision=4,
+        split_unit=False,
+        compatible_unit=False,
+    )

@@ -1,0 +1,119 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""From Blender properties to settings and back, and how a preset and the fields keep in step.
+
+Nothing here refers to bpy. Blender 4.2 never frees a PropertyGroup class, so that what its update functions
+refer to outlives Python, and the module bpy crashes when it does.
+"""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from typing import TYPE_CHECKING, Any
+
+from ..core.settings import PRESETS, DenoiseSettings
+
+if TYPE_CHECKING:
+    import bpy
+
+CUSTOM = "CUSTOM"
+
+DEFINING = ("method", "frame", "stencil", "shrinkage")
+"""The settings that make the algorithm; one that differs from the preset's makes it a custom combination."""
+
+SETTING_NAMES = tuple(item.name for item in fields(DenoiseSettings))
+PROPERTY_NAMES = ("preset", *SETTING_NAMES)
+
+FRAME_NAMES = ("frame", "stencil", "levels", "boundary")
+"""The settings of the frame transform itself."""
+
+_FRAME_ONLY = frozenset({"frame", "stencil", "shrinkage", "levels", "lambda_", "mu", "delta"})
+_BILATERAL_ONLY = frozenset({"sigma_c", "sigma_s"})
+
+# True while a preset fills the fields, so that their own updates do not answer.
+_is_filling = False
+
+
+def has_effect(method: str, name: str) -> bool:
+    """Tell whether a setting is used by a method."""
+    return name not in (_FRAME_ONLY if method == "BILATERAL" else _BILATERAL_ONLY)
+
+
+def fill(properties: Any, settings: DenoiseSettings, keep: tuple[str, ...] = ()) -> None:
+    """Write settings to properties, and leave the preset's name as it is.
+
+    Parameters
+    ----------
+    properties : SettingsMixin
+        Scene settings or an operator; changed.
+    settings : DenoiseSettings
+        The values.
+    keep : tuple of str
+        Names that are not written.
+    """
+    global _is_filling
+    outer, _is_filling = _is_filling, True
+    try:
+        for name in SETTING_NAMES:
+            if name not in keep:
+                setattr(properties, name, getattr(settings, name))
+    finally:
+        _is_filling = outer
+
+
+def to_settings(properties: Any) -> DenoiseSettings:
+    """Return the settings that properties stand for.
+
+    Parameters
+    ----------
+    properties : SettingsMixin
+        Scene settings or an operator. Values that were never set are those of the preset.
+
+    Raises
+    ------
+    ValueError
+        In one sentence, if a value is not allowed.
+    """
+    rna = getattr(properties, "properties", properties)
+    changes = {name: as_typed(getattr(rna, name)) for name in SETTING_NAMES if rna.is_property_set(name)}
+    base = PRESETS[rna.preset].settings if rna.preset != CUSTOM else DenoiseSettings()
+    return base.with_changes(**changes)
+
+
+def copy_settings(source: Any, target: Any) -> None:
+    """Copy all properties of scene settings to an operator, so that the operator needs nothing else."""
+    target.preset = source.preset
+    fill(target, to_settings(source))
+
+
+def copy_frame_settings(source: Any, target: Any, names: tuple[str, ...] = FRAME_NAMES) -> None:
+    """Copy the settings of the frame transform from scene settings to an operator."""
+    settings = to_settings(source)
+    for name in names:
+        setattr(target, name, getattr(settings, name))
+
+
+def copy_values(source: Any, target: Any, names: tuple[str, ...]) -> None:
+    """Copy properties by name, from scene properties to an operator."""
+    for name in names:
+        setattr(target, name, getattr(source, name))
+
+
+def as_typed(value: Any) -> Any:
+    """Return the number that was typed: properties hold single precision, 0.3 as 0.30000001."""
+    return float(f"{value:.7g}") if isinstance(value, float) else value
+
+
+def follow_preset(self: Any, _context: bpy.types.Context) -> None:
+    """Fill the fields from the preset; the number of threads is the machine's matter, not the preset's."""
+    if self.preset != CUSTOM and not _is_filling:
+        fill(self, PRESETS[self.preset].settings, keep=("threads",))
+
+
+def leave_preset(self: Any, _context: bpy.types.Context) -> None:
+    """Call the combination custom once it is no longer the preset's."""
+    if _is_filling or self.preset == CUSTOM:
+        return
+    settings = PRESETS[self.preset].settings
+    if any(getattr(self, name) != getattr(settings, name) for name in DEFINING):
+        self.preset = CUSTOM

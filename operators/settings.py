@@ -1,0 +1,67 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Blender properties for the settings of a run, generated from the dataclass in `core.settings`."""
+
+from dataclasses import Field, fields
+from typing import Any
+
+import bpy
+
+from ..core.settings import DEFAULT_PRESET, PRESETS, DenoiseSettings, SettingInfo
+from .setting_values import CUSTOM, DEFINING, FRAME_NAMES, follow_preset, leave_preset
+
+FIELDS = {item.name: item for item in fields(DenoiseSettings)}
+"""The settings by name."""
+
+
+def _preset_property() -> Any:
+    """Return the property that names a preset."""
+    items = [(identifier, preset.label, preset.description) for identifier, preset in PRESETS.items()]
+    items.append((CUSTOM, "Custom", "Your own combination"))
+    return bpy.props.EnumProperty(
+        name="Preset",
+        description="A named algorithm; choosing one sets all values below",
+        items=items,
+        default=DEFAULT_PRESET,
+        options=set(),
+        update=follow_preset,
+    )
+
+
+def setting_property(item: Field, **options: Any) -> Any:
+    """Return the Blender property of a dataclass field; `options` add to those that the field gives."""
+    info: SettingInfo = item.metadata["info"]
+    common: dict[str, Any] = {
+        "name": f"{info.label} {info.symbol}".strip(),
+        "description": info.description,
+        "default": item.default,
+        "options": set(),
+    } | options
+    if info.choices:
+        return bpy.props.EnumProperty(items=[tuple(choice) for choice in info.choices], **common)
+    common |= {"min": info.minimum, "max": info.maximum}
+    if info.soft_maximum is not None:
+        common["soft_max"] = info.soft_maximum
+    if item.type == "int":
+        return bpy.props.IntProperty(**common)
+    end = info.maximum if info.soft_maximum is None else info.soft_maximum
+    return bpy.props.FloatProperty(precision=4 if end <= 0.1 else 3, step=1 if end <= 1.0 else 10, **common)
+
+
+class SettingsMixin:
+    """The preset and a property for each field of `DenoiseSettings`; for scene settings and operators."""
+
+    __annotations__ = {"preset": _preset_property()} | {
+        name: setting_property(item, **({"update": leave_preset} if name in DEFINING else {}))
+        for name, item in FIELDS.items()
+    }
+
+
+class FrameMixin:
+    """The properties of the frame transform alone, without a preset; for operators."""
+
+    __annotations__ = {name: setting_property(FIELDS[name]) for name in FRAME_NAMES}
+
+
+class FrameletSettings(SettingsMixin, bpy.types.PropertyGroup):
+    """The settings that the sidebar shows, stored with the scene."""

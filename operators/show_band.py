@@ -1,0 +1,107 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operator that shows a band as colors."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import bpy
+
+from . import band_storage, targets
+from .band_settings import ShowMixin
+from .band_values import BandChoice, BandValues, choose_values, find_limit
+from .scene_units import length_text
+from .setting_values import as_typed
+
+
+class ColorRange(NamedTuple):
+    """Which values the colors cover, from -limit or 0 to limit, in scene units.
+
+    `largest` is the largest magnitude of all values and `share` how many of them are within, 0 to 1.
+    """
+
+    limit: float
+    largest: float
+    share: float
+
+
+def color_objects(found: Sequence[BandValues], is_signed: bool, limit: float) -> ColorRange:
+    """Write the colors of values to the meshes of their objects, all with the same range."""
+    import numpy as np
+
+    from .colormaps import DIVERGING, SEQUENTIAL, map_colors
+
+    # Without any detail everything takes the color of zero.
+    scale = 1.0 / limit if limit > 0.0 else 0.0
+    colormap = DIVERGING if is_signed else SEQUENTIAL
+    for obj, values in found:
+        band_storage.write_colors(obj.data, map_colors(colormap, values * scale))
+    magnitudes = np.abs(np.concatenate([values for _, values in found]))
+    return ColorRange(limit, float(magnitudes.max()), float((magnitudes <= limit).mean()))
+
+
+def show_vertex_colors(context: bpy.types.Context) -> None:
+    """Make the 3D View show vertex colors; if the mouse is elsewhere, all 3D Views of the screen."""
+    space = context.space_data
+    if space is not None and space.type == "VIEW_3D":
+        spaces = [space]
+    else:
+        areas = context.screen.areas if context.screen else []
+        spaces = [area.spaces.active for area in areas if area.type == "VIEW_3D"]
+    for each in spaces:
+        each.shading.type = "SOLID"
+        each.shading.color_type = "VERTEX"
+
+
+class OBJECT_OT_framelet_show_band(ShowMixin, bpy.types.Operator):
+    """Show a stored band of the selected meshes as vertex colors"""
+
+    bl_idname = "object.framelet_show_band"
+    bl_label = "Show Band"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Ask for a selected mesh with bands, in Object Mode."""
+        reason = targets.band_poll_reason(context)
+        if reason is not None:
+            cls.poll_message_set(reason)
+        return reason is None
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        """Show, when adjusting the last operation, the properties that count."""
+        from .band_settings import shown_names
+
+        layout = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        for name in shown_names(self):
+            layout.prop(self, name)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Choose the values of all targets, then color them with one range."""
+        choice = BandChoice(self.content, self.level, self.band, self.component)
+        done = targets.run_on_targets(self, context, lambda obj, _progress: choose_values(obj, choice))
+        if not done:
+            return {"CANCELLED"}
+        if self.range_rule == "FIXED":
+            limit = as_typed(self.limit)
+        else:
+            percentile = as_typed(self.percentile) if self.range_rule == "PERCENTILE" else 100.0
+            limit = find_limit([values for _, values in done.values()], percentile)
+        found = color_objects(list(done.values()), choice.is_signed, limit)
+        show_vertex_colors(context)
+        shown = context.window_manager.framelet_band_range
+        shown.names, shown.title, shown.is_signed = ", ".join(done), choice.title, choice.is_signed
+        shown.limit, shown.largest, shown.share = found
+        shown.minimum = -found.limit if choice.is_signed else 0.0
+        shown.share = 100.0 * found.share
+        length = length_text(context.scene, found.limit)
+        self.report(
+            {"INFO"},
+            f"{choice.title} of {targets.names_text(list(done))}: colors from "
+            f"{f'-{length}' if choice.is_signed else '0'} to {length}, {shown.share:.1f} % of the vertices",
+        )
+        return {"FINISHED"}

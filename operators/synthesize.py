@@ -1,0 +1,40 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operator that rebuilds meshes from their stored bands."""
+
+import bpy
+
+from . import targets
+from .bands import synthesize_object
+from .scene_units import displacement_in_scene, length_text
+
+
+class OBJECT_OT_framelet_synthesize(bpy.types.Operator):
+    """Rebuild the selected meshes from their stored bands, edited or not"""
+
+    bl_idname = "object.framelet_synthesize"
+    bl_label = "Rebuild"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Ask for a selected mesh with bands, in Object Mode."""
+        reason = targets.band_poll_reason(context)
+        if reason is not None:
+            cls.poll_message_set(reason)
+        return reason is None
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Rebuild every target."""
+        done = targets.run_on_targets(
+            self, context, lambda obj, _progress: displacement_in_scene(obj, *synthesize_object(obj))
+        )
+        if not done:
+            return {"CANCELLED"}
+        largest = max(maximum for _, maximum in done.values())
+        self.report(
+            {"INFO"},
+            f"Rebuilt {targets.names_text(list(done))}: vertices moved by up to "
+            f"{length_text(context.scene, largest)}",
+        )
+        return {"FINISHED"}

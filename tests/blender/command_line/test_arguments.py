@@ -1,0 +1,107 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
+"""Options: made from the settings, checked, understood in several spellings, put over the preset."""
+
+from dataclasses import fields
+
+import pytest
+from framelet.core.settings import PRESETS, DenoiseSettings
+from framelet.operators.command_line.arguments import as_word, option_name, settings_from
+from framelet.operators.command_line.parser import make_parser
+
+
+def parse(*options):
+    """Return the settings of a command line with these options."""
+    return settings_from(make_parser("framelet").parse_args(["denoise", "a.ply", "b.ply", *options]))
+
+
+def test_names_of_options():
+    assert option_name("lambda_") == "--lambda"
+    assert option_name("sigma_c") == "--sigma-c"
+
+
+def test_without_options_the_default_preset():
+    assert parse() == DenoiseSettings()
+
+
+@pytest.mark.parametrize("item", fields(DenoiseSettings), ids=lambda item: item.name)
+def test_every_field_has_an_option(item):
+    info = item.metadata["info"]
+    values = [choice.identifier for choice in info.choices] or [item.default, info.minimum, info.maximum]
+    for value in values:
+        for text in (str(value), as_word(str(value))):
+            assert getattr(parse(option_name(item.name), text), item.name) == value
+
+
+@pytest.mark.parametrize("key", PRESETS)
+def test_preset(key):
+    assert parse("--preset", as_word(key)) == PRESETS[key].settings
+    assert parse("--preset", key) == PRESETS[key].settings
+
+
+@pytest.mark.parametrize("order", [1, -1])
+def test_options_override_the_preset_in_any_order(order):
+    pairs = [("--preset", "tri-1"), ("--lambda", "0.7"), ("--stencil", "straight")][::order]
+    settings = parse(*(word for pair in pairs for word in pair))
+    assert settings == PRESETS["TRI_1"].settings.with_changes(lambda_=0.7, stencil="STRAIGHT")
+
+
+def test_option_equal_to_the_default_overrides_the_preset():
+    default = DenoiseSettings().stencil
+    assert PRESETS["TRI_1"].settings.stencil != default
+    assert parse("--preset", "tri-1", "--stencil", as_word(default)).stencil == default
+
+
+def test_help_of_denoise(command):
+    result = command("denoise", "--help")
+    assert (result.code, result.err) == (0, "")
+    assert "usage: framelet denoise IN OUT" in result.out
+    assert "example: framelet denoise " in result.out
+    words = " ".join(result.out.split())
+    for item in fields(DenoiseSettings):
+        info = item.metadata["info"]
+        assert option_name(item.name) in words
+        assert info.description in words
+        for choice in info.choices:
+            assert f"- {as_word(choice.identifier)}: {choice.description}" in words
+    for option in ("--preset", "--report", "--quiet"):
+        assert option in words
+
+
+def test_help_of_the_program(command):
+    result = command("--help")
+    assert (result.code, result.err) == (0, "")
+    assert "denoise the meshes of a file" in result.out
+
+
+def test_version(command):
+    result = command("--version")
+    assert (result.code, result.err) == (0, "")
+    name, version = result.out.split()
+    assert name == "Framelet" and version[0].isdigit()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ([], "required: COMMAND"),
+        (["polish"], "'polish'"),
+        (["denoise"], "required: IN, OUT"),
+        (["denoise", "a.ply"], "required: OUT"),
+        (["denoise", "a.ply", "b.ply", "c.ply"], "unrecognized arguments: c.ply"),
+        (["denoise", "a.ply", "b.ply", "--strength", "3"], "unrecognized arguments: --strength 3"),
+        (["denoise", "a.ply", "b.ply", "--iter", "3"], "unrecognized arguments: --iter 3"),
+        (["denoise", "a.ply", "b.ply", "--lambda"], "--lambda: expected one argument"),
+        (["denoise", "a.ply", "b.ply", "--lambda", "much"], "'much' is not a number"),
+        (["denoise", "a.ply", "b.ply", "--lambda", "-1"], "Smoothing (λ) is -1; it must be between 0 and"),
+        (["denoise", "a.ply", "b.ply", "--lambda", "nan"], "Smoothing (λ) is nan"),
+        (["denoise", "a.ply", "b.ply", "--iterations", "2.5"], "'2.5' is not a whole number"),
+        (["denoise", "a.ply", "b.ply", "--stencil", "round"], "'round' is not one of mean, straight"),
+        (["denoise", "a.ply", "b.ply", "--preset", "best"], "'best' is not one of tri-1, tri-2, bilateral"),
+    ],
+)
+def test_usage_errors(fails, arguments, message):
+    sentence = fails(*arguments, code=2)
+    assert message in sentence
+    assert "--help" in sentence

@@ -1,0 +1,149 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
+"""Files of Blender in and out: all meshes denoised, everything else intact."""
+
+import numpy as np
+import pytest
+from framelet.core import DenoiseSettings, SurfaceMesh, denoise
+
+
+def positions(mesh):
+    """Return the positions of a mesh."""
+    return np.array([vertex.co for vertex in mesh.vertices], np.float32)
+
+
+def open_file(path):
+    """Open a .blend file in the session."""
+    import bpy
+
+    bpy.ops.wm.open_mainfile(filepath=str(path))
+
+
+def mesh_object(name, vertices, faces, edges=()):
+    """Add a mesh object to the scene."""
+    import bpy
+
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata([tuple(map(float, v)) for v in vertices], edges, faces)
+    obj = bpy.data.objects.new(name, mesh)
+    bpy.context.scene.collection.objects.link(obj)
+    return obj
+
+
+@pytest.fixture
+def blend(grid, tmp_path):
+    """A .blend file with a modifier, a parent, a twin, a hidden mesh in Edit Mode, a camera and a wire."""
+    import bpy
+
+    surface = mesh_object("Surface", grid.vertices, grid.faces)
+    surface.modifiers.new("Subdivision", "SUBSURF")
+    surface.location = (1, 2, 3)
+    twin = bpy.data.objects.new("Twin", surface.data)
+    twin.parent = surface
+    twin.location = (100, 0, 0)
+    bpy.context.scene.collection.objects.link(twin)
+    hidden = mesh_object("Hidden", grid.vertices * 2, grid.faces)
+    mesh_object("Wire", [(0, 0, 0), (1, 0, 0)], [], [(0, 1)])
+    camera = bpy.data.objects.new("Eye", bpy.data.cameras.new("Eye"))
+    bpy.context.scene.collection.objects.link(camera)
+    image = bpy.data.images.new("Skin", 2, 2)
+    image.use_fake_user = True
+    image.filepath = "//textures/skin.png"
+    image.source = "FILE"
+    bpy.context.view_layer.objects.active = hidden
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="DESELECT")
+    hidden.hide_viewport = True
+    path = tmp_path / "in.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    return path
+
+
+def test_blend_to_blend(command, blend, grid, tmp_path):
+    import bpy
+
+    (tmp_path / "deeper").mkdir()
+    target = tmp_path / "deeper" / "out.blend"
+    target.write_text("old")
+    original = blend.read_bytes()
+    result = command("denoise", blend, target)
+    assert result.code == 0
+    assert (
+        result.err == "framelet: warning: ‘Wire’ has no faces; Framelet works on surfaces. It was skipped.\n"
+    )
+    assert result.out.count("Denoised") == 2  # the twins share a mesh
+    assert blend.read_bytes() == original
+    assert [path.name for path in target.parent.iterdir()] == ["out.blend"]
+
+    open_file(target)
+    assert set(bpy.context.scene.objects.keys()) == {"Surface", "Twin", "Hidden", "Wire", "Eye"}
+    assert bpy.data.objects["Surface"].modifiers.keys() == ["Subdivision"]
+    assert bpy.data.objects["Hidden"].hide_viewport
+    assert bpy.data.objects["Twin"].data == bpy.data.objects["Surface"].data
+    assert (
+        bpy.path.abspath(bpy.data.images["Skin"].filepath) == str(tmp_path / "textures" / "skin.png")
+        or bpy.data.images["Skin"].filepath == "//../textures/skin.png"
+    )
+    expected = denoise(SurfaceMesh.from_faces(grid.vertices, grid.faces), DenoiseSettings()).vertices
+    np.testing.assert_allclose(positions(bpy.data.objects["Surface"].data), expected, atol=1e-5)
+    np.testing.assert_allclose(positions(bpy.data.objects["Hidden"].data), 2 * expected, atol=1e-5)
+
+
+@pytest.mark.parametrize("suffix", [".ply", ".obj"])
+def test_blend_to_mesh_file(command, blend, grid, read_ply, read_obj, tmp_path, suffix):
+    target = tmp_path / f"out{suffix}"
+    assert command("denoise", blend, target).code == 0
+    result = (read_ply if suffix == ".ply" else read_obj)(target)
+    expected = denoise(SurfaceMesh.from_faces(grid.vertices, grid.faces), DenoiseSettings()).vertices
+    parts = np.split(result.vertices, 3)
+    wanted = [expected + np.array([1, 2, 3]), expected + np.array([101, 2, 3]), 2 * expected]
+    for part, points in zip(parts, wanted, strict=True):
+        np.testing.assert_allclose(part, points, atol=1e-4)
+    assert len(result.vertices) == 3 * len(grid.vertices)
+    assert len(result.faces) == 3 * len(grid.faces)
+
+
+def test_mesh_file_to_blend(command, grid, write_ply, read_ply, tmp_path):
+    import bpy
+
+    bpy.ops.wm.read_factory_settings(use_empty=False)
+    source = write_ply(tmp_path / "bust.ply", grid.vertices, grid.faces)
+    assert command("denoise", source, tmp_path / "out.ply").code == 0
+    assert command("denoise", source, tmp_path / "out.blend").code == 0
+    open_file(tmp_path / "out.blend")
+    assert bpy.context.scene.objects.keys() == ["bust"]
+    assert bpy.data.meshes.keys() == ["bust"]
+    expected = read_ply(tmp_path / "out.ply").vertices
+    np.testing.assert_array_equal(positions(bpy.data.objects["bust"].data), expected)
+
+
+def test_active_shape_key_is_exported(command, grid, read_ply, tmp_path):
+    import bpy
+
+    obj = mesh_object("Face", grid.vertices, grid.faces)
+    obj.shape_key_add(name="Basis")
+    key = obj.shape_key_add(name="Smile")
+    key.points.foreach_set("co", (grid.vertices + np.float32([0, 0, 5])).ravel())
+    obj.active_shape_key_index = 1
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "in.blend"))
+    assert command("denoise", tmp_path / "in.blend", tmp_path / "out.ply").code == 0
+    result = read_ply(tmp_path / "out.ply").vertices
+    assert abs(np.median(result[:, 2]) - 5) < 0.2
+
+
+def test_blend_without_a_mesh(fails, tmp_path):
+    import bpy
+
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "in.blend"))
+    assert "has no mesh objects" in fails("denoise", tmp_path / "in.blend", tmp_path / "out.ply")
+
+
+def test_blend_in_which_no_mesh_can_be_denoised(fails, tmp_path):
+    import bpy
+
+    mesh_object("Wire", [(0, 0, 0), (1, 0, 0)], [], [(0, 1)])
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "in.blend"))
+    sentence = fails("denoise", tmp_path / "in.blend", tmp_path / "out.blend")
+    assert "‘Wire’ has no faces" in sentence
+    assert not (tmp_path / "out.blend").exists()

@@ -1,0 +1,180 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
+"""What goes wrong: one sentence, an exit code, and all files as they were."""
+
+import os
+
+import numpy as np
+import pytest
+
+HEADER = (
+    "ply\nformat ascii 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n"
+    "element face {}\nproperty list uchar int vertex_indices\nend_header\n"
+)
+
+
+@pytest.fixture
+def source(grid, write_ply, tmp_path):
+    """A good file."""
+    return write_ply(tmp_path / "in.ply", grid.vertices, grid.faces)
+
+
+@pytest.fixture
+def unchanged(tmp_path):
+    """Remember the files of a folder when called, and check in the end that they are the same."""
+    (tmp_path / "out.ply").write_text("precious")
+    before = {}
+
+    def content():
+        return {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()}
+
+    yield lambda: before.update(content())
+    assert content() == before
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "message"),
+    [
+        ("empty.ply", b"", "is empty"),
+        ("empty.obj", b"", "is empty"),
+        ("empty.stl", b"", "is empty"),
+        ("empty.blend", b"", "is empty"),
+        ("noise.ply", bytes(range(256)) * 20, "cannot be read: Blender says"),
+        ("noise.obj", bytes(range(256)) * 20, "holds no surface"),
+        ("noise.stl", bytes(range(256)) * 20, ""),
+        ("noise.blend", bytes(range(256)) * 20, "cannot be read: Blender says"),
+        ("comment.obj", b"# nothing here\n", "holds no surface"),
+        ("none.ply", HEADER.format(0, 0).encode(), "cannot be read: Blender says"),
+        ("short.ply", HEADER.format(4, 2).encode() + b"0 0 0\n1 0 0\n", "cannot be read: Blender says"),
+        ("cloud.ply", HEADER.format(2, 0).encode() + b"0 0 0\n1 0 0\n", "‘cloud’ has no faces"),
+        ("cloud.obj", b"v 0 0 0\nv 1 0 0\n", "‘cloud’ has no faces"),
+        ("wire.obj", b"v 0 0 0\nv 1 0 0\nl 1 2\n", "‘wire’ has no faces"),
+        ("zero.stl", bytes(84), "has no faces"),
+        ("words.stl", b"this is not a surface\n", "cannot be read: Blender says"),
+        ("point.obj", b"v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n", ""),
+    ],
+)
+def test_files_that_cannot_be_denoised(fails, unchanged, tmp_path, name, content, message):
+    (tmp_path / name).write_bytes(content)
+    unchanged()
+    sentence = fails("denoise", tmp_path / name, tmp_path / "out.ply", "--report", tmp_path / "r.json")
+    assert message in sentence and name in sentence
+
+
+def test_missing_input(fails, unchanged, tmp_path):
+    unchanged()
+    assert "does not exist" in fails("denoise", tmp_path / "none.ply", tmp_path / "out.ply")
+
+
+def test_folder_as_input(fails, tmp_path):
+    (tmp_path / "folder.ply").mkdir()
+    assert "is a folder" in fails("denoise", tmp_path / "folder.ply", tmp_path / "out.ply")
+
+
+@pytest.mark.parametrize("names", [("in.gltf", "out.ply"), ("in.ply", "out.xyz"), ("in.ply", "out")])
+def test_unknown_types_are_usage_errors(fails, source, tmp_path, names):
+    sentence = fails("denoise", *(tmp_path / name for name in names), code=2)
+    assert "is no .ply, .obj, .stl or .blend file" in sentence
+
+
+def test_missing_output_folder(fails, source, tmp_path):
+    sentence = fails("denoise", source, tmp_path / "none" / "out.ply")
+    assert "does not exist" in sentence
+    sentence = fails("denoise", source, tmp_path / "out.ply", "--report", tmp_path / "none" / "r.json")
+    assert "does not exist" in sentence
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["in.ply"]
+
+
+def test_folder_as_output(fails, source, tmp_path):
+    (tmp_path / "out.ply").mkdir()
+    assert "is a folder" in fails("denoise", source, tmp_path / "out.ply")
+
+
+def test_folder_that_cannot_be_written_to(fails, source, tmp_path, monkeypatch):
+    # The mode of a folder does not stop the administrator, so the answer is pretended.
+    monkeypatch.setattr(os, "access", lambda path, mode: False)
+    assert "cannot be written to" in fails("denoise", source, tmp_path / "out.ply")
+
+
+def test_report_over_a_mesh_is_a_usage_error(fails, source, unchanged, tmp_path):
+    unchanged()
+    fails("denoise", source, tmp_path / "out.ply", "--report", source, code=2)
+    fails("denoise", source, tmp_path / "out.ply", "--report", tmp_path / "out.ply", code=2)
+
+
+@pytest.mark.parametrize("suffix", [".ply", ".obj", ".stl", ".blend"])
+def test_failing_exporter_leaves_no_trace(fails, source, unchanged, tmp_path, monkeypatch, suffix):
+    from framelet.operators.command_line import exporting
+
+    def fail(*arguments, **options):
+        raise exporting.CommandError("The disk is full.")
+
+    for name in ("_call", "captured_output"):
+        monkeypatch.setattr(exporting, name, fail)
+    (tmp_path / f"out{suffix}").write_text("precious")
+    unchanged()
+    assert "disk is full" in fails("denoise", source, tmp_path / f"out{suffix}")
+
+
+def test_nothing_written_by_the_exporter(fails, source, unchanged, tmp_path, monkeypatch):
+    from framelet.operators.command_line import exporting
+
+    monkeypatch.setattr(exporting, "_call", lambda *arguments, **options: None)
+    unchanged()
+    assert "could not be written" in fails("denoise", source, tmp_path / "out.ply")
+
+
+def test_failing_report_leaves_no_mesh(fails, source, unchanged, tmp_path, monkeypatch):
+    from framelet.operators.command_line import report_file
+    from framelet.operators.command_line.messages import CommandError
+
+    def fail(*arguments, **options):
+        raise CommandError("The disk is full.")
+
+    monkeypatch.setattr(report_file, "write_report", fail)
+    unchanged()
+    fails("denoise", source, tmp_path / "out.ply", "--report", tmp_path / "r.json")
+
+
+def test_interrupt(command, source, unchanged, tmp_path, monkeypatch):
+    from framelet.operators import denoise_object
+
+    def interrupt(*arguments):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(denoise_object, "denoise_object", interrupt)
+    unchanged()
+    result = command("denoise", source, tmp_path / "out.ply")
+    assert result.code == 130
+    assert result.err == "framelet: Interrupted; nothing was written.\n"
+
+
+def test_left_out_faces_are_told(command, tmp_path, read_ply):
+    source = tmp_path / "in.obj"
+    source.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0.1\nf 1 2 3\nf 2 4 3\nf 1 2 30\n")
+    result = command("denoise", source, tmp_path / "out.ply")
+    assert result.code == 0
+    assert "warning: Blender left out parts of in.obj: Invalid vertex index" in result.err
+    assert len(read_ply(tmp_path / "out.ply").faces) == 2
+
+
+def test_quiet(command, source, tmp_path):
+    result = command("denoise", source, tmp_path / "out.ply", "--quiet")
+    assert (result.code, result.out, result.err) == (0, "", "")
+
+
+def test_the_session_is_as_it_was(command, source, write_obj, grid, tmp_path):
+    import bpy
+
+    bpy.ops.wm.read_factory_settings(use_empty=False)
+    names = sorted(data.name_full for data in bpy.data.user_map())
+    cube = np.array([vertex.co for vertex in bpy.data.objects["Cube"].data.vertices])
+    other = write_obj(tmp_path / "cube.obj", grid.vertices, grid.faces, before="o Cube")
+    assert command("denoise", other, tmp_path / "out.obj").code == 0
+    assert command("denoise", tmp_path / "none.ply", tmp_path / "out.obj").code == 1
+    assert "o Cube\n" in (tmp_path / "out.obj").read_text()
+    assert sorted(data.name_full for data in bpy.data.user_map()) == names
+    assert bpy.context.scene.name == "Scene"
+    after = np.array([vertex.co for vertex in bpy.data.objects["Cube"].data.vertices])
+    np.testing.assert_array_equal(after, cube)

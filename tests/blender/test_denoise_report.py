@@ -1,0 +1,79 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The report of a run counts in scene units and in edge lengths, for one object and for several."""
+
+import bpy
+import numpy as np
+import pytest
+from framelet.core import DenoiseSettings, add_noise, denoise
+from framelet.operators import mesh_bridge
+
+
+def noisy_monkey(name="Monkey", location=(0, 0, 0)):
+    bpy.ops.mesh.primitive_monkey_add(location=location)
+    obj = bpy.context.object
+    obj.name = name
+    surface = mesh_bridge.read_surface(obj)
+    mesh_bridge.write_vertices(obj, surface, add_noise(surface, 0.2, 1))
+    return obj
+
+
+def read(obj):
+    return mesh_bridge.read_surface(obj).vertices
+
+
+def select_only(*objects):
+    bpy.ops.object.select_all(action="DESELECT")
+    for obj in objects:
+        obj.select_set(True)
+    bpy.context.view_layer.objects.active = objects[0]
+
+
+def last_report():
+    return bpy.context.window_manager.framelet_report
+
+
+def test_report_counts_scene_units():
+    obj = noisy_monkey()
+    core = denoise(mesh_bridge.read_surface(obj), DenoiseSettings()).report
+    obj.scale = (-10, 10, 10)
+    obj.rotation_euler = (0.3, 0.2, 1.0)
+    bpy.context.view_layer.update()
+    bpy.ops.object.framelet_denoise()
+    report = last_report()
+    assert report.displacement_rms == pytest.approx(10 * core.displacement_rms, rel=1e-5)
+    assert report.displacement_max == pytest.approx(10 * core.displacement_max, rel=1e-5)
+    assert report.displacement_rms_edges == pytest.approx(core.displacement_rms / core.mean_edge_length)
+    assert report.displacement_max_edges == pytest.approx(core.displacement_max / core.mean_edge_length)
+    assert report.n_vertices == core.n_vertices and report.n_moved == core.n_moved
+    assert report.boundary_vertices == core.boundary_vertices > 0
+    assert report.irregular_vertices == core.irregular_vertices > 0
+    assert not report.is_closed
+
+
+def test_report_with_another_scale_on_each_axis():
+    obj = noisy_monkey()
+    before = read(obj).astype(np.float64)
+    obj.scale = (1, 2, 5)
+    bpy.context.view_layer.update()
+    bpy.ops.object.framelet_denoise()
+    moved = np.linalg.norm((read(obj) - before) * (1, 2, 5), axis=1)
+    assert last_report().displacement_rms == pytest.approx(np.sqrt(np.mean(moved**2)), rel=1e-5)
+    assert last_report().displacement_max == pytest.approx(moved.max(), rel=1e-5)
+
+
+def test_report_of_several_objects():
+    objects = [noisy_monkey("A"), noisy_monkey("B")]
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=3)
+    objects.append(bpy.context.object)
+    before = [read(obj).astype(np.float64) for obj in objects]
+    select_only(*objects)
+    bpy.ops.object.framelet_denoise()
+    moved = np.concatenate(
+        [np.linalg.norm(read(obj) - old, axis=1) for obj, old in zip(objects, before, strict=True)]
+    )
+    report = last_report()
+    assert report.n_objects == 3 and report.n_vertices == len(moved)
+    assert report.displacement_rms == pytest.approx(np.sqrt(np.mean(moved**2)), rel=1e-5)
+    assert report.displacement_max == pytest.approx(moved.max(), rel=1e-5)
+    assert not report.is_closed and report.volume_change < 0

@@ -1,0 +1,75 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Enabling and disabling leave nothing behind, and can be repeated."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import bpy
+import framelet
+import pytest
+from framelet.ui import menus
+
+OPERATORS = ("framelet_denoise", "framelet_add_noise", "framelet_compare")
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def traces():
+    """Return everything of Framelet that Blender knows."""
+    found = {name for name in dir(bpy.types) if "framelet" in name.lower()}
+    for owner in (bpy.types.Scene, bpy.types.WindowManager, bpy.types.Object, bpy.types.Mesh):
+        found |= {f"{owner.__name__}.{name}" for name in dir(owner) if "framelet" in name}
+    found |= {f"ops.{name}" for name in dir(bpy.ops.object) if "framelet" in name}
+    for name in menus.MENU_NAMES:
+        drawers = getattr(bpy.types, name)._dyn_ui_initialize()
+        found |= {f"{name}.{drawer.__name__}" for drawer in drawers if "framelet" in drawer.__module__}
+    return found
+
+
+@pytest.fixture
+def registered_again():
+    """Leave the add-on registered, whatever the test did."""
+    yield
+    if not hasattr(bpy.types.Scene, "framelet"):
+        framelet.register()
+
+
+def test_register_unregister_register(registered_again):
+    before = traces()
+    assert {f"ops.{name}" for name in OPERATORS} <= before
+    assert "Scene.framelet" in before and "WindowManager.framelet_report" in before
+    framelet.unregister()
+    assert traces() == set()
+    framelet.register()
+    assert traces() == before
+    bpy.ops.mesh.primitive_monkey_add()
+    assert bpy.ops.object.framelet_denoise() == {"FINISHED"}
+
+
+def test_operators_are_undoable_and_explained():
+    for name in OPERATORS:
+        rna = getattr(bpy.ops.object, name).get_rna_type()
+        assert rna.name and len(rna.description) > 20, name
+    assert bpy.types.OBJECT_OT_framelet_denoise.bl_options == {"REGISTER", "UNDO", "PRESET"}
+
+
+def test_enabling_does_not_import_numpy_or_the_solvers():
+    program = f"""
+import importlib.util, sys
+spec = importlib.util.spec_from_file_location("framelet", {str(ROOT / "__init__.py")!r},
+                                              submodule_search_locations=[{str(ROOT)!r}])
+package = importlib.util.module_from_spec(spec)
+sys.modules["framelet"] = package
+spec.loader.exec_module(package)
+import bpy
+before = set(sys.modules)
+package.register()
+new = sorted(set(sys.modules) - before)
+package.unregister()
+core = [name for name in new if name.startswith("framelet.core")]
+assert core == ["framelet.core", "framelet.core.settings"], core
+assert "numpy" not in new, new
+"""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stderr
