@@ -10,11 +10,10 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from ..blocks import Blocks
-from ..metrics import normal_angles
 from ..settings import DenoiseSettings
 from ..surface.checks import check_surface
 from ..surface.connectivity import Connectivity, connect
-from ..surface.geometry import face_normals, signed_volume
+from ..surface.geometry import face_area_vectors, signed_volume
 from ..surface.normalization import displaced, normalize
 from ..surface.surface_mesh import SurfaceMesh
 from ..transform import choose_frame, make_transform
@@ -125,11 +124,11 @@ def _report(
     """Account for a finished run."""
     result = surface.with_vertices(vertices)
     moved = np.linalg.norm(vertices.astype(np.float64) - surface.vertices, axis=1)
-    angles = normal_angles(face_normals(surface), face_normals(result))
+    areas_before, areas_after = face_area_vectors(surface), face_area_vectors(result)
     volume_change = None
     if connectivity.is_closed:
-        before = signed_volume(surface)
-        volume_change = (signed_volume(result) - before) / before if before else None
+        before = signed_volume(surface, areas_before)
+        volume_change = (signed_volume(result, areas_after) - before) / before if before else None
     return DenoiseReport(
         n_vertices=surface.n_vertices,
         n_faces=surface.n_faces,
@@ -139,7 +138,7 @@ def _report(
         mean_edge_length=edge,
         displacement_rms=float(np.sqrt(np.mean(moved**2))),
         displacement_max=float(moved.max()),
-        flipped_faces=int((angles > 90.0).sum()),
+        flipped_faces=int((np.einsum("fi,fi->f", areas_before, areas_after) < 0.0).sum()),
         volume_change=volume_change,
         irregular_vertices=int(connectivity.is_irregular().sum()),
         boundary_vertices=int(connectivity.is_boundary.sum()),

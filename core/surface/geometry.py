@@ -9,6 +9,9 @@ from numpy.typing import NDArray
 
 from .surface_mesh import SurfaceMesh
 
+_CORNERS_AT_ONCE = 2**16
+"""Blocks of corners whose temporaries stay in the cache."""
+
 
 def mean_edge_length(surface: SurfaceMesh) -> float:
     """Return the mean edge length over all face-edge incidences, in scene units; 0.0 without faces.
@@ -17,9 +20,14 @@ def mean_edge_length(surface: SurfaceMesh) -> float:
     """
     if not surface.n_corners:
         return 0.0
-    start = surface.vertices[surface.corner_vertex]
-    stop = start[surface.next_corner()]
-    return float(np.linalg.norm(stop.astype(np.float64) - start, axis=1).mean())
+    vertex = surface.corner_vertex
+    following = vertex[surface.next_corner()]
+    total = 0.0
+    for start in range(0, len(vertex), _CORNERS_AT_ONCE):
+        part = slice(start, start + _CORNERS_AT_ONCE)
+        edge = surface.vertices[following[part]] - surface.vertices[vertex[part]].astype(np.float64)
+        total += float(np.sqrt(np.einsum("ci,ci->c", edge, edge)).sum())
+    return total / len(vertex)
 
 
 def face_area_vectors(surface: SurfaceMesh) -> NDArray[np.float64]:
@@ -28,29 +36,40 @@ def face_area_vectors(surface: SurfaceMesh) -> NDArray[np.float64]:
     By Newell's formula, which serves planar and non-planar polygons alike: half the cross product of two
     edges for a triangle and half that of the diagonals for a quad.
     """
-    if not surface.n_faces:
-        return np.zeros((0, 3))
-    start = surface.vertices[surface.corner_vertex].astype(np.float64)
-    sizes = surface.face_sizes()
-    filled = sizes > 0
-    # Relative to the face's first corner, so that a mesh far from the origin loses no digits.
-    start -= np.repeat(start[surface.face_offset[:-1][filled]], sizes[filled], axis=0)
-    cross = np.cross(start, start[surface.next_corner()])
     vectors = np.zeros((surface.n_faces, 3))
-    vectors[filled] = 0.5 * np.add.reduceat(cross, surface.face_offset[:-1][filled], axis=0)
+    sizes = surface.face_sizes()
+    for size in (3, 4):
+        faces = np.flatnonzero(sizes == size)
+        first = surface.face_offset[:-1][faces]
+        corners = [surface.vertices[surface.corner_vertex[first + step]] for step in range(size)]
+        origin = corners[0].astype(np.float64)
+        if size == 3:
+            vectors[faces] = _half_cross(corners[1] - origin, corners[2] - origin)
+        else:
+            vectors[faces] = _half_cross(corners[2] - origin, corners[3].astype(np.float64) - corners[1])
+    faces = np.flatnonzero(sizes > 4)
+    if len(faces):
+        vectors[faces] = _newell_areas(surface, faces)
     return vectors
 
 
-def face_centroids(surface: SurfaceMesh) -> NDArray[np.float64]:
-    """Return the mean of the corners of each face, shape (F, 3), float64."""
-    centroids = np.zeros((surface.n_faces, 3))
-    sizes = surface.face_sizes()
-    filled = sizes > 0
-    if filled.any():
-        corners = surface.vertices[surface.corner_vertex].astype(np.float64)
-        centroids[filled] = np.add.reduceat(corners, surface.face_offset[:-1][filled], axis=0)
-        centroids[filled] /= sizes[filled, None]
-    return centroids
+def _half_cross(first: NDArray[np.float64], second: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return half the cross products of vectors, shape (n, 3)."""
+    (a, b, c), (x, y, z) = first.T, second.T
+    return 0.5 * np.stack((b * z - c * y, c * x - a * z, a * y - b * x), axis=1)
+
+
+def _newell_areas(surface: SurfaceMesh, faces: NDArray[np.intp]) -> NDArray[np.float64]:
+    """Return the vector areas of polygons of any size, shape (n, 3)."""
+    counts = surface.face_sizes()[faces]
+    begin = np.cumsum(counts) - counts
+    corner = np.arange(counts.sum()) + np.repeat(surface.face_offset[:-1][faces] - begin, counts)
+    following = np.arange(1, len(corner) + 1)
+    following[begin + counts - 1] = begin
+    points = surface.vertices[surface.corner_vertex[corner]].astype(np.float64)
+    # Relative to the face's first corner, so that a mesh far from the origin loses no digits.
+    points -= np.repeat(points[begin], counts, axis=0)
+    return np.add.reduceat(_half_cross(points, points[following]), begin, axis=0)
 
 
 def unit_vectors(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -77,11 +96,22 @@ def vertex_normals(surface: SurfaceMesh) -> NDArray[np.float64]:
     return unit_vectors(np.stack(sums, axis=1).astype(np.float64, copy=False))
 
 
-def signed_volume(surface: SurfaceMesh) -> float:
-    """Return the enclosed volume, in cubed scene units, of a closed and consistently oriented mesh."""
+def signed_volume(surface: SurfaceMesh, area_vectors: NDArray[np.float64] | None = None) -> float:
+    """Return the enclosed volume, in cubed scene units, of a closed and consistently oriented mesh.
+
+    Faces with more than three corners count as fans around the mean of their corners. `area_vectors` are
+    those of `face_area_vectors`, if they are known already.
+    """
     if not surface.n_faces:
         return 0.0
-    shifted = surface.with_vertices(
-        surface.vertices.astype(np.float64) - surface.vertices.mean(0, np.float64)
-    )
-    return float(np.einsum("fi,fi->", face_centroids(shifted), face_area_vectors(shifted)) / 3.0)
+    vectors = face_area_vectors(surface) if area_vectors is None else area_vectors
+    sizes = surface.face_sizes()
+    filled = np.flatnonzero(sizes > 0)
+    # For a triangle every point of its plane does as well as the mean; the first corner costs least.
+    tip = surface.vertices[surface.corner_vertex[surface.face_offset[:-1][filled]]].astype(np.float64)
+    for size in np.unique(sizes[sizes > 3]):
+        faces = sizes[filled] == size
+        corner = surface.face_offset[:-1][filled[faces], None] + np.arange(size)
+        tip[faces] = surface.vertices[surface.corner_vertex[corner]].mean(axis=1, dtype=np.float64)
+    tip -= tip.mean(axis=0)  # near the origin, so that a mesh far away loses no digits
+    return float(np.einsum("fi,fi->", tip, vectors[filled]) / 3.0)
