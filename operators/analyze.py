@@ -8,10 +8,11 @@ from . import band_storage, targets
 from .band_settings import StoreMixin
 from .bands import analyze_object, clear_object, megabytes_text
 from .setting_values import as_typed
-from .settings import FrameMixin
+from .settings import FrameMixin, LevelsMixin
+from .viewport import hide_vertex_colors
 
 
-class OBJECT_OT_framelet_analyze(FrameMixin, StoreMixin, bpy.types.Operator):
+class OBJECT_OT_framelet_analyze(FrameMixin, LevelsMixin, StoreMixin, bpy.types.Operator):
     """Split the selected meshes into bands, and store these as attributes for nodes, scripts and display"""
 
     bl_idname = "object.framelet_analyze"
@@ -69,6 +70,9 @@ class OBJECT_OT_framelet_clear(bpy.types.Operator):
         done = targets.run_on_targets(self, context, lambda obj, _progress: clear_object(obj))
         if not done:
             return {"CANCELLED"}
-        context.window_manager.framelet_band_range.names = ""
+        meshes = [obj.data for obj in context.scene.objects if obj.type == "MESH"]
+        if not any(band_storage.has_colors(mesh) for mesh in meshes):
+            context.window_manager.framelet_band_range.names = ""
+            hide_vertex_colors(context)
         self.report({"INFO"}, f"Removed the bands of {targets.names_text(list(done))}")
         return {"FINISHED"}

@@ -86,6 +86,7 @@ class ShowMixin:
         default=98.0,
         min=1.0,
         max=100.0,
+        precision=1,
         subtype="PERCENTAGE",
         options=set(),
     )
@@ -134,6 +135,18 @@ class EqualizerMixin:
             name="Invert", description="Change the vertices outside of the group instead", options=set()
         ),
     }
+
+
+def shown_names(properties: Any) -> tuple[str, ...]:
+    """Return the names of a `ShowMixin` that count with its present values."""
+    hidden = {
+        "level": properties.content == "LOW",
+        "band": properties.content != "BAND",
+        "component": properties.content == "LEVEL",
+        "percentile": properties.range_rule != "PERCENTILE",
+        "limit": properties.range_rule != "FIXED",
+    }
+    return tuple(name for name in SHOW_NAMES if not hidden.get(name))
 
 
 class FrameletBands(StoreMixin, ShowMixin, bpy.types.PropertyGroup):

@@ -77,6 +77,11 @@ def has_note(mesh: bpy.types.Mesh) -> bool:
     return NOTE in mesh
 
 
+def has_colors(mesh: bpy.types.Mesh) -> bool:
+    """Tell whether a mesh has the colors of a band."""
+    return COLORS in mesh.attributes
+
+
 def has_traces(mesh: bpy.types.Mesh) -> bool:
     """Tell whether there is anything to remove."""
     return (
@@ -103,8 +108,8 @@ def read_note(obj: bpy.types.Object) -> BandNote:
     values: dict[str, Any] = found.to_dict() if hasattr(found, "to_dict") else {}
     if values.get("format") != FORMAT:
         raise ValueError(
-            f"The bands of {name} have format {values.get('format')}, and this version reads format {FORMAT}; "
-            f"{_AGAIN}"
+            f"The bands of {name} have format {values.get('format')}, but this version reads format "
+            f"{FORMAT}; {_AGAIN}"
         )
     del values["format"]
     if not _is_whole(values):
@@ -157,7 +162,8 @@ def read_vectors(obj: bpy.types.Object, name: str, domain: str) -> NDArray[np.fl
     n_elements = {"POINT": len(mesh.vertices), "EDGE": len(mesh.edges), "FACE": len(mesh.polygons)}[domain]
     if len(attribute.data) != n_elements:
         raise ValueError(
-            f"The attribute {name} of {who} has {len(attribute.data)} values instead of {n_elements}; {_AGAIN}"
+            f"The attribute {name} of {who} has {len(attribute.data)} values instead of {n_elements}; "
+            f"{_AGAIN}"
         )
     vectors = np.empty((n_elements, 3), np.float32)
     attribute.data.foreach_get("vector", vectors.reshape(-1))

@@ -49,6 +49,17 @@ class BandValues(NamedTuple):
     values: NDArray[np.float64]
 
 
+class ColorRange(NamedTuple):
+    """The values that colors cover: from -limit, or 0 without a sign, to limit, in scene units.
+
+    `largest` is the largest magnitude of all values, and `share`, 0 to 1, says how many are within.
+    """
+
+    limit: float
+    largest: float
+    share: float
+
+
 def choose_values(obj: bpy.types.Object, choice: BandChoice) -> BandValues:
     """Return the chosen numbers at the vertices of an object, with its scale.
 

@@ -57,8 +57,9 @@ class StoredBands(NamedTuple):
 
 def megabytes_text(n_bytes: int) -> str:
     """Return a size in words."""
-    megabytes = n_bytes / 1e6
-    return f"{megabytes:,.0f} MB" if megabytes >= 10.0 else f"{max(megabytes, 0.1):.1f} MB"
+    if n_bytes < 1e6:
+        return f"{n_bytes / 1e3:.0f} kB"
+    return f"{n_bytes / 1e6:,.0f} MB" if n_bytes >= 1e7 else f"{n_bytes / 1e6:.1f} MB"
 
 
 def analyze_object(
@@ -217,7 +218,8 @@ def synthesize_object(obj: bpy.types.Object) -> tuple[NDArray[np.float32], NDArr
     ]
     low = stored.low.astype(np.float64) - coefficients.low.astype(np.float32)
     change = coefficients.transform.synthesize(coefficients.with_details(edits, low))
-    vertices = (stored.rest + change).astype(np.float32)
+    with np.errstate(over="ignore"):
+        vertices = (stored.rest + change).astype(np.float32)
     if not np.isfinite(vertices).all():
         raise ValueError(f"The bands of ‘{obj.name}’ are too large to give positions; analyze it again.")
     mesh_bridge.write_vertices(obj, stored.surface, vertices)
@@ -249,7 +251,7 @@ def find_note_cells(surface: SurfaceMesh, note: BandNote) -> Cells:
 
 
 def _analyze(surface: SurfaceMesh, frame: str, stencil: str, levels: int, boundary: str) -> FrameCoefficients:
-    """Return the coefficients of a surface in float64; called twice with the same values it gives the same."""
+    """Return the coefficients of a surface in float64; the same surface gives the same."""
     import numpy as np
 
     from ..core import make_transform

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Two color maps for numbers on surfaces, even to the eye. Knows numpy only.
 
-Colors are interpolated in OKLab (Ottosson 2020), where equal steps look equal, between a few anchors given as
-lightness, chroma and hue. Zero is a light gray in both maps, so that the shading of the surface stays visible.
+Colors are interpolated in OKLab (Ottosson 2020), where equal steps look equal, between a few anchors given
+as lightness, chroma and hue. Zero is a light gray in both maps, so that the surface's shading stays visible.
 """
 
 from __future__ import annotations
@@ -17,7 +17,10 @@ if TYPE_CHECKING:
 
 
 class Colormap(NamedTuple):
-    """Colors for values from `low` to `high`, evenly spaced; each anchor is lightness, chroma, hue in degrees."""
+    """Colors for values from `low` to `high`.
+
+    The anchors are evenly spaced, each given as lightness, chroma, and hue in degrees.
+    """
 
     low: float
     high: float

@@ -65,9 +65,7 @@ def equalize_object(
         group = 1.0 - group if invert else group
         weights = group if weights is None else weights * group
     try:
-        vertices = equalize(
-            surface, gains, frame=frame, stencil=stencil, boundary=boundary, weights=weights
-        )
+        vertices = equalize(surface, gains, frame=frame, stencil=stencil, boundary=boundary, weights=weights)
     except ValueError as error:
         raise ValueError(f"‘{obj.name}’: {error}") from error
     mesh_bridge.write_vertices(obj, surface, vertices)
@@ -75,7 +73,7 @@ def equalize_object(
 
 
 class OBJECT_OT_framelet_equalize(FrameMixin, EqualizerMixin, bpy.types.Operator):
-    """Smooth or exaggerate the details of the selected meshes, scale by scale; in Edit Mode of selected vertices"""
+    """Smooth or exaggerate the details of meshes, scale by scale; in Edit Mode those of selected vertices"""
 
     bl_idname = "object.framelet_equalize"
     bl_label = "Equalize"

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from ..core import Comparison
+    from .band_values import BandChoice, ColorRange
     from .denoise_object import MeasuredReport
-    from .report import FrameletComparison, FrameletReport
+    from .report import FrameletBandRange, FrameletComparison, FrameletReport
 
 SUMMED = (
     "n_vertices",
@@ -51,6 +52,20 @@ def fill_comparison(properties: FrameletComparison, name: str, other: str, compa
         setattr(properties, item, getattr(comparison, item))
     properties.rms_distance_edges = comparison.rms_distance / comparison.mean_edge_length
     properties.max_distance_edges = comparison.max_distance / comparison.mean_edge_length
+
+
+def fill_band_range(
+    properties: FrameletBandRange, names: list[str], choice: BandChoice, found: ColorRange
+) -> None:
+    """Take over which values the colors of a band cover."""
+    properties.names, properties.title, properties.is_signed = (
+        ", ".join(names),
+        choice.title,
+        choice.is_signed,
+    )
+    properties.minimum = -found.limit if choice.is_signed else 0.0
+    properties.maximum, properties.largest = found.limit, found.largest
+    properties.share = 100.0 * found.share
 
 
 def _rms(values: list[float], counts: list[int]) -> float:

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from ..core import SurfaceMesh
 
 _LATTICES = {entry.identifier: entry.lattice for entry in FRAME_CATALOG}
+_LABELS = {entry.identifier: entry.label for entry in FRAME_CATALOG}
 _HAS_BANK = {entry.identifier: bool(entry.module) for entry in FRAME_CATALOG}
 _MOST_MESHES = 64
 
@@ -77,6 +78,13 @@ def known_facts(obj: bpy.types.Object | None) -> MeshFacts | None:
 def forget_facts() -> None:
     """Forget all meshes."""
     _facts.clear()
+
+
+def frame_label(frame: str, stencil: str) -> str:
+    """Return the name of a frame for people; the stencil ADAPTIVE takes the masks of that frame for all."""
+    if stencil == "ADAPTIVE" and frame != "PAIRWISE":
+        frame = "ADAPTIVE"
+    return _LABELS.get(frame, frame)
 
 
 def resolve_frame(frame: str, facts: MeshFacts) -> str:

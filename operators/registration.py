@@ -5,21 +5,45 @@
 import bpy
 from bpy.utils import register_classes_factory
 
+from . import mesh_facts
 from .add_noise import OBJECT_OT_framelet_add_noise
+from .analyze import OBJECT_OT_framelet_analyze, OBJECT_OT_framelet_clear
+from .band_settings import FrameletBands, FrameletEqualizer
 from .command_line import blender_command
 from .compare import OBJECT_OT_framelet_compare
 from .denoise import OBJECT_OT_framelet_denoise
-from .report import FrameletComparison, FrameletReport
+from .equalize import OBJECT_OT_framelet_equalize
+from .report import FrameletBandRange, FrameletComparison, FrameletReport
 from .settings import FrameletSettings
+from .show_band import OBJECT_OT_framelet_show_band
+from .synthesize import OBJECT_OT_framelet_synthesize
 
 classes = (
     FrameletSettings,
     FrameletReport,
     FrameletComparison,
+    FrameletBandRange,
+    FrameletBands,
+    FrameletEqualizer,
     OBJECT_OT_framelet_denoise,
     OBJECT_OT_framelet_add_noise,
     OBJECT_OT_framelet_compare,
+    OBJECT_OT_framelet_analyze,
+    OBJECT_OT_framelet_show_band,
+    OBJECT_OT_framelet_synthesize,
+    OBJECT_OT_framelet_clear,
+    OBJECT_OT_framelet_equalize,
 )
+
+POINTERS = (
+    (bpy.types.Scene, "framelet", FrameletSettings),
+    (bpy.types.Scene, "framelet_bands", FrameletBands),
+    (bpy.types.Scene, "framelet_equalizer", FrameletEqualizer),
+    (bpy.types.WindowManager, "framelet_report", FrameletReport),
+    (bpy.types.WindowManager, "framelet_comparison", FrameletComparison),
+    (bpy.types.WindowManager, "framelet_band_range", FrameletBandRange),
+)
+"""Owner, name and class of what is kept with scenes and windows."""
 
 _register_classes, _unregister_classes = register_classes_factory(classes)
 
@@ -27,16 +51,15 @@ _register_classes, _unregister_classes = register_classes_factory(classes)
 def register() -> None:
     """Register the classes, the pointers to them and the command."""
     _register_classes()
-    bpy.types.Scene.framelet = bpy.props.PointerProperty(type=FrameletSettings)
-    bpy.types.WindowManager.framelet_report = bpy.props.PointerProperty(type=FrameletReport)
-    bpy.types.WindowManager.framelet_comparison = bpy.props.PointerProperty(type=FrameletComparison)
+    for owner, name, kind in POINTERS:
+        setattr(owner, name, bpy.props.PointerProperty(type=kind))
     blender_command.register()
 
 
 def unregister() -> None:
     """Take everything away in reverse order."""
     blender_command.unregister()
-    del bpy.types.WindowManager.framelet_comparison
-    del bpy.types.WindowManager.framelet_report
-    del bpy.types.Scene.framelet
+    for owner, name, _ in reversed(POINTERS):
+        delattr(owner, name)
+    mesh_facts.forget_facts()
     _unregister_classes()

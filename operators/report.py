@@ -75,3 +75,19 @@ class FrameletComparison(bpy.types.PropertyGroup):
     flipped_faces: IntProperty(
         name="Flipped Faces", description="Faces that differ by more than a right angle"
     )
+
+
+class FrameletBandRange(bpy.types.PropertyGroup):
+    """What the vertex colors of a band mean."""
+
+    names: StringProperty(name="Objects", description="The objects that are colored; empty if there are none")
+    title: StringProperty(name="Band", description="What is shown")
+    is_signed: BoolProperty(name="Signed", description="Values are components along the normals")
+    minimum: _length("Minimum", "The value with the first color, in scene units")
+    maximum: _length("Maximum", "The value with the last color, in scene units")
+    largest: _length("Largest", "Largest magnitude of all values, in scene units")
+    share: FloatProperty(
+        name="Within", description="Share of the vertices within the range", subtype="PERCENTAGE"
+    )
+    shading_type: StringProperty(name="Shading", description="How the 3D View was shaded before")
+    color_type: StringProperty(name="Color", description="What colored the 3D View before")

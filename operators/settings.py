@@ -58,9 +58,15 @@ class SettingsMixin:
 
 
 class FrameMixin:
-    """The properties of the frame transform alone, without a preset; for operators."""
+    """The frame without its levels and without a preset; for operators."""
 
-    __annotations__ = {name: setting_property(FIELDS[name]) for name in FRAME_NAMES}
+    __annotations__ = {name: setting_property(FIELDS[name]) for name in FRAME_NAMES if name != "levels"}
+
+
+class LevelsMixin:
+    """The number of levels; for operators."""
+
+    __annotations__ = {"levels": setting_property(FIELDS["levels"])}
 
 
 class FrameletSettings(SettingsMixin, bpy.types.PropertyGroup):

@@ -5,26 +5,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import bpy
 
 from . import band_storage, targets
-from .band_settings import ShowMixin
-from .band_values import BandChoice, BandValues, choose_values, find_limit
+from .band_settings import ShowMixin, shown_names
+from .band_values import BandChoice, BandValues, ColorRange, choose_values, find_limit
+from .filled_reports import fill_band_range
 from .scene_units import length_text
 from .setting_values import as_typed
-
-
-class ColorRange(NamedTuple):
-    """Which values the colors cover, from -limit or 0 to limit, in scene units.
-
-    `largest` is the largest magnitude of all values and `share` how many of them are within, 0 to 1.
-    """
-
-    limit: float
-    largest: float
-    share: float
+from .viewport import show_vertex_colors
 
 
 def color_objects(found: Sequence[BandValues], is_signed: bool, limit: float) -> ColorRange:
@@ -40,19 +30,6 @@ def color_objects(found: Sequence[BandValues], is_signed: bool, limit: float) ->
         band_storage.write_colors(obj.data, map_colors(colormap, values * scale))
     magnitudes = np.abs(np.concatenate([values for _, values in found]))
     return ColorRange(limit, float(magnitudes.max()), float((magnitudes <= limit).mean()))
-
-
-def show_vertex_colors(context: bpy.types.Context) -> None:
-    """Make the 3D View show vertex colors; if the mouse is elsewhere, all 3D Views of the screen."""
-    space = context.space_data
-    if space is not None and space.type == "VIEW_3D":
-        spaces = [space]
-    else:
-        areas = context.screen.areas if context.screen else []
-        spaces = [area.spaces.active for area in areas if area.type == "VIEW_3D"]
-    for each in spaces:
-        each.shading.type = "SOLID"
-        each.shading.color_type = "VERTEX"
 
 
 class OBJECT_OT_framelet_show_band(ShowMixin, bpy.types.Operator):
@@ -72,8 +49,6 @@ class OBJECT_OT_framelet_show_band(ShowMixin, bpy.types.Operator):
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Show, when adjusting the last operation, the properties that count."""
-        from .band_settings import shown_names
-
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
@@ -94,14 +69,12 @@ class OBJECT_OT_framelet_show_band(ShowMixin, bpy.types.Operator):
         found = color_objects(list(done.values()), choice.is_signed, limit)
         show_vertex_colors(context)
         shown = context.window_manager.framelet_band_range
-        shown.names, shown.title, shown.is_signed = ", ".join(done), choice.title, choice.is_signed
-        shown.limit, shown.largest, shown.share = found
-        shown.minimum = -found.limit if choice.is_signed else 0.0
-        shown.share = 100.0 * found.share
+        fill_band_range(shown, list(done), choice, found)
         length = length_text(context.scene, found.limit)
         self.report(
             {"INFO"},
             f"{choice.title} of {targets.names_text(list(done))}: colors from "
-            f"{f'-{length}' if choice.is_signed else '0'} to {length}, {shown.share:.1f} % of the vertices",
+            f"{f'-{length}' if choice.is_signed else '0'} to {length}, which {shown.share:.1f} % of the "
+            "vertices are within",
         )
         return {"FINISHED"}

@@ -9,6 +9,8 @@ from typing import TypeVar
 
 import bpy
 
+from .band_storage import has_note
+
 Result = TypeVar("Result")
 Progress = Callable[[float, float], bool]
 
@@ -22,6 +24,14 @@ def poll_reason(context: bpy.types.Context, *, in_object_mode: bool = False) -> 
     if not target_objects(context):
         return "Select at least one mesh object"
     return None
+
+
+def band_poll_reason(context: bpy.types.Context) -> str | None:
+    """Say why there are no stored bands to work on; None if there are."""
+    reason = poll_reason(context, in_object_mode=True)
+    if reason is None and not any(has_note(obj.data) for obj in target_objects(context)):
+        return "Analyze a selected mesh first: none has stored bands"
+    return reason
 
 
 def target_objects(context: bpy.types.Context) -> list[bpy.types.Object]:

@@ -9,19 +9,12 @@ import bpy
 from ..operators.add_noise import OBJECT_OT_framelet_add_noise
 from ..operators.compare import OBJECT_OT_framelet_compare
 from ..operators.denoise import OBJECT_OT_framelet_denoise
-from ..operators.scene_units import length_text
-from ..operators.setting_values import copy_settings, has_effect
+from ..operators.setting_values import copy_settings
+from . import band_panels
+from .layouts import FrameletPanel, draw_lengths, draw_settings, draw_value
 
 MAIN_NAMES = ("frame", "levels", "lambda_", "mu", "sigma_c", "sigma_s")
 ADVANCED_NAMES = ("method", "stencil", "shrinkage", "delta", "iterations", "tolerance", "boundary", "threads")
-
-
-class FrameletPanel:
-    """Where all panels of Framelet are."""
-
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Framelet"
 
 
 class VIEW3D_PT_framelet(FrameletPanel, bpy.types.Panel):
@@ -37,7 +30,7 @@ class VIEW3D_PT_framelet(FrameletPanel, bpy.types.Panel):
         row = layout.row()
         row.scale_y = 1.5
         copy_settings(settings, row.operator(OBJECT_OT_framelet_denoise.bl_idname, icon="MOD_SMOOTH"))
-        _draw_settings(layout, settings, MAIN_NAMES)
+        draw_settings(layout, settings, MAIN_NAMES, context.active_object)
 
 
 class VIEW3D_PT_framelet_advanced(FrameletPanel, bpy.types.Panel):
@@ -49,7 +42,7 @@ class VIEW3D_PT_framelet_advanced(FrameletPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the other settings of the method."""
-        _draw_settings(self.layout, context.scene.framelet, ADVANCED_NAMES)
+        draw_settings(self.layout, context.scene.framelet, ADVANCED_NAMES)
 
 
 class VIEW3D_PT_framelet_last_run(FrameletPanel, bpy.types.Panel):
@@ -66,15 +59,13 @@ class VIEW3D_PT_framelet_last_run(FrameletPanel, bpy.types.Panel):
             column.label(text="Nothing was denoised yet")
             return
         one = report.n_objects == 1
-        _draw_value(column, "Object" if one else "Objects", report.names if one else str(report.n_objects))
-        _draw_value(column, "Moved", f"{report.n_moved:,} of {report.n_vertices:,}")
-        _draw_lengths(column, context.scene, "RMS", report.displacement_rms, report.displacement_rms_edges)
-        _draw_lengths(
-            column, context.scene, "Largest", report.displacement_max, report.displacement_max_edges
-        )
+        draw_value(column, "Object" if one else "Objects", report.names if one else str(report.n_objects))
+        draw_value(column, "Moved", f"{report.n_moved:,} of {report.n_vertices:,}")
+        draw_lengths(column, context.scene, "RMS", report.displacement_rms, report.displacement_rms_edges)
+        draw_lengths(column, context.scene, "Largest", report.displacement_max, report.displacement_max_edges)
         volume = f"{report.volume_change:+.2f} %" if report.is_closed else "Open mesh"
-        _draw_value(column, "Volume", volume)
-        _draw_value(column, "Flipped Faces", f"{report.flipped_faces:,}")
+        draw_value(column, "Volume", volume)
+        draw_value(column, "Flipped Faces", f"{report.flipped_faces:,}")
         for label, name in (
             ("Irregular", "irregular_vertices"),
             ("Boundary", "boundary_vertices"),
@@ -82,9 +73,9 @@ class VIEW3D_PT_framelet_last_run(FrameletPanel, bpy.types.Panel):
             ("Loose", "loose_vertices"),
         ):
             if getattr(report, name):
-                _draw_value(column, label, f"{getattr(report, name):,}")
-        _draw_value(column, "Iterations", str(report.iterations))
-        _draw_value(column, "Time", f"{report.seconds:.2f} s")
+                draw_value(column, label, f"{getattr(report, name):,}")
+        draw_value(column, "Iterations", str(report.iterations))
+        draw_value(column, "Time", f"{report.seconds:.2f} s")
 
 
 class VIEW3D_PT_framelet_try_it(FrameletPanel, bpy.types.Panel):
@@ -103,49 +94,19 @@ class VIEW3D_PT_framelet_try_it(FrameletPanel, bpy.types.Panel):
         if not comparison.object_name:
             return
         column = self.layout.column(align=True)
-        _draw_value(column, "Object", comparison.object_name)
-        _draw_value(column, "Against", comparison.other_name)
-        _draw_value(column, "Mean Angle", f"{comparison.mean_angle:.3f}°")
-        _draw_value(column, "Largest Angle", f"{comparison.max_angle:.3f}°")
-        _draw_lengths(column, context.scene, "RMS", comparison.rms_distance, comparison.rms_distance_edges)
-        _draw_lengths(
-            column, context.scene, "Largest", comparison.max_distance, comparison.max_distance_edges
-        )
-        _draw_value(column, "Flipped Faces", f"{comparison.flipped_faces:,}")
-
-
-def _draw_settings(
-    layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup, names: tuple[str, ...]
-) -> None:
-    """Draw those of the settings that the method uses."""
-    column = layout.column()
-    column.use_property_split = True
-    column.use_property_decorate = False
-    for name in names:
-        if has_effect(settings.method, name):
-            column.prop(settings, name)
-
-
-def _draw_value(layout: bpy.types.UILayout, label: str, value: str) -> None:
-    """Draw a line of a table: the name on the right of its column, as next to a property, and the value."""
-    split = layout.split(factor=0.4)
-    left = split.row()
-    left.alignment = "RIGHT"
-    left.label(text=label)
-    split.label(text=value)
-
-
-def _draw_lengths(
-    layout: bpy.types.UILayout, scene: bpy.types.Scene, label: str, length: float, edges: float
-) -> None:
-    """Draw a length in scene units, and in edge lengths below it."""
-    _draw_value(layout, label, length_text(scene, length))
-    _draw_value(layout, "", f"{edges:.3f} edge lengths")
+        draw_value(column, "Object", comparison.object_name)
+        draw_value(column, "Against", comparison.other_name)
+        draw_value(column, "Mean Angle", f"{comparison.mean_angle:.3f}°")
+        draw_value(column, "Largest Angle", f"{comparison.max_angle:.3f}°")
+        draw_lengths(column, context.scene, "RMS", comparison.rms_distance, comparison.rms_distance_edges)
+        draw_lengths(column, context.scene, "Largest", comparison.max_distance, comparison.max_distance_edges)
+        draw_value(column, "Flipped Faces", f"{comparison.flipped_faces:,}")
 
 
 classes = (
     VIEW3D_PT_framelet,
     VIEW3D_PT_framelet_last_run,
     VIEW3D_PT_framelet_advanced,
+    *band_panels.classes,
     VIEW3D_PT_framelet_try_it,
 )

@@ -9,11 +9,14 @@ from __future__ import annotations
 
 import argparse
 import textwrap
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import Field, fields
 from typing import Any
 
 from ...core.settings import DEFAULT_PRESET, PRESETS, DenoiseSettings, SettingInfo
+
+LONGEST_LIST = 60
+"""Letters up to which the choices of an option stand beside its name; longer lists stand below it only."""
 
 
 class HelpFormatter(argparse.HelpFormatter):
@@ -25,6 +28,12 @@ class HelpFormatter(argparse.HelpFormatter):
             indent = "  " if line.startswith("- ") else ""
             wrapped += textwrap.wrap(line, width, subsequent_indent=indent, break_on_hyphens=False)
         return wrapped
+
+    def _fill_text(self, text: str, width: int, indent: str) -> str:
+        # Lines that are indented continue the one before.
+        paragraphs = text.replace("\n  ", " ").splitlines()
+        lines = [line for part in paragraphs for line in self._split_lines(part, width - len(indent)) or [""]]
+        return "\n".join(indent + line for line in lines)
 
 
 def option_name(field_name: str) -> str:
@@ -52,16 +61,17 @@ def add_setting_options(parser: argparse.ArgumentParser) -> None:
         ),
     )
     for item in fields(DenoiseSettings):
-        info: SettingInfo = item.metadata["info"]
-        group = algorithm if info.choices else numbers
-        group.add_argument(
-            option_name(item.name),
-            dest=item.name,
-            default=None,  # tells what was typed from what the preset says
-            type=_value_type(item),
-            metavar=_metavar(item),
-            help=_escaped(_help(item)),
-        )
+        group = algorithm if item.metadata["info"].choices else numbers
+        # None tells what was typed from what the preset says.
+        _add_option(group, item, None, _default_text(item.name))
+
+
+def add_frame_options(parser: argparse.ArgumentParser, names: Sequence[str]) -> None:
+    """Add the options of some fields of DenoiseSettings, for commands that have no presets."""
+    group = parser.add_argument_group("algorithm")
+    by_name = {item.name: item for item in fields(DenoiseSettings)}
+    for name in names:
+        _add_option(group, by_name[name], by_name[name].default, _shown(by_name[name].default))
 
 
 def settings_from(arguments: argparse.Namespace) -> DenoiseSettings:
@@ -69,6 +79,18 @@ def settings_from(arguments: argparse.Namespace) -> DenoiseSettings:
     given = {item.name: getattr(arguments, item.name) for item in fields(DenoiseSettings)}
     changes = {name: value for name, value in given.items() if value is not None}
     return PRESETS[arguments.preset].settings.with_changes(**changes)
+
+
+def _add_option(group: argparse._ArgumentGroup, item: Field, default: Any, default_text: str) -> None:
+    """Add the option of a field."""
+    group.add_argument(
+        option_name(item.name),
+        dest=item.name,
+        default=default,
+        type=_value_type(item),
+        metavar=_metavar(item),
+        help=_escaped(_help(item, default_text)),
+    )
 
 
 def _value_type(item: Field) -> Callable[[str], Any]:
@@ -115,14 +137,15 @@ def _metavar(item: Field) -> str:
 
 
 def _choice_list(identifiers: Iterable[str]) -> str:
-    """Return the choices as argparse shows them."""
-    return "{" + ",".join(as_word(identifier) for identifier in identifiers) + "}"
+    """Return the choices as argparse shows them, or a word for them if they are many."""
+    choices = ",".join(as_word(identifier) for identifier in identifiers)
+    return "{" + choices + "}" if len(choices) <= LONGEST_LIST else "NAME"
 
 
-def _help(item: Field) -> str:
+def _help(item: Field, default_text: str) -> str:
     """Return label, description, defaults and choices of a field."""
     info: SettingInfo = item.metadata["info"]
-    text = f"{info.description} (default: {_default_text(item.name)})"
+    text = f"{info.description} (default: {default_text})"
     if as_word(info.label) != option_name(item.name).lstrip("-"):
         text = f"{info.label} ({info.symbol}): {text}" if info.symbol else f"{info.label}: {text}"
     return text + _describe((choice.identifier, choice.description) for choice in info.choices)
@@ -130,17 +153,18 @@ def _help(item: Field) -> str:
 
 def _default_text(name: str) -> str:
     """Return the default of a field, and the presets that have another one."""
-
-    def shown(value: Any) -> str:
-        return as_word(value) if isinstance(value, str) else f"{value:g}"
-
     default = getattr(PRESETS[DEFAULT_PRESET].settings, name)
-    text = shown(default)
+    text = _shown(default)
     for key, preset in PRESETS.items():
         value = getattr(preset.settings, name)
         if value != default:
-            text += f"; preset {as_word(key)}: {shown(value)}"
+            text += f"; preset {as_word(key)}: {_shown(value)}"
     return text
+
+
+def _shown(value: Any) -> str:
+    """Return a value as it is typed."""
+    return as_word(value) if isinstance(value, str) else f"{value:g}"
 
 
 def _describe(choices: Iterable[tuple[str, str]]) -> str:

@@ -45,6 +45,25 @@ def registered():
     framelet.unregister()
 
 
+@pytest.fixture
+def make_object(empty_scene):
+    """Give a function that makes an object of a `SurfaceMesh`, and selects it alone."""
+    import bpy
+    from meshes import faces_of, loose_edges_of
+
+    def make(surface, name="Mesh"):
+        mesh = bpy.data.meshes.new(name)
+        mesh.from_pydata(surface.vertices.tolist(), loose_edges_of(surface).tolist(), faces_of(surface))
+        obj = bpy.data.objects.new(name, mesh)
+        bpy.context.collection.objects.link(obj)
+        bpy.ops.object.select_all(action="DESELECT")
+        obj.select_set(True)
+        bpy.context.view_layer.objects.active = obj
+        return obj
+
+    return make
+
+
 @pytest.fixture(autouse=True)
 def empty_scene(registered):
     """Start from factory settings and an empty scene."""

@@ -11,7 +11,16 @@ import framelet
 import pytest
 from framelet.ui import menus
 
-OPERATORS = ("framelet_denoise", "framelet_add_noise", "framelet_compare")
+OPERATORS = (
+    "framelet_denoise",
+    "framelet_add_noise",
+    "framelet_compare",
+    "framelet_analyze",
+    "framelet_show_band",
+    "framelet_synthesize",
+    "framelet_clear",
+    "framelet_equalize",
+)
 ROOT = Path(__file__).resolve().parents[2]
 
 
@@ -68,7 +77,7 @@ package.register()
 new = sorted(set(sys.modules) - before)
 package.unregister()
 core = [name for name in new if name.startswith("framelet.core")]
-assert core == ["framelet.core", "framelet.core.settings"], core
+assert core == ["framelet.core", "framelet.core.frame_catalog", "framelet.core.settings"], core
 assert "numpy" not in new, new
 """
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=120)

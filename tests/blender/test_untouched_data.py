@@ -126,7 +126,11 @@ def select_part(obj):
     bmesh.update_edit_mesh(obj.data)
 
 
-OPERATORS = [("framelet_denoise", {}), ("framelet_add_noise", {"sigma": 0.3})]
+OPERATORS = [
+    ("framelet_denoise", {}),
+    ("framelet_add_noise", {"sigma": 0.3}),
+    ("framelet_equalize", {"gain_1": 0.0, "gain_2": 2.0}),
+]
 
 
 @pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])

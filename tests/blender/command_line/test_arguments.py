@@ -6,6 +6,7 @@
 from dataclasses import fields
 
 import pytest
+from framelet.core.frame_catalog import FRAME_CATALOG
 from framelet.core.settings import PRESETS, DenoiseSettings
 from framelet.operators.command_line.arguments import as_word, option_name, settings_from
 from framelet.operators.command_line.parser import make_parser
@@ -69,10 +70,34 @@ def test_help_of_denoise(command):
         assert option in words
 
 
+@pytest.mark.parametrize("name", ["bands", "equalize"])
+def test_help_of_commands_with_a_frame(command, name):
+    result = command(name, "--help")
+    assert (result.code, result.err) == (0, "")
+    assert f"usage: framelet {name} IN " in result.out
+    assert f"example: framelet {name} " in result.out
+    words = " ".join(result.out.split())
+    for option in ("--frame NAME", "--stencil {mean,straight,adaptive}", "--boundary", "--quiet"):
+        assert option in words
+    for entry in FRAME_CATALOG:
+        assert f"- {as_word(entry.identifier)}: {entry.description}" in words
+    assert "(default: auto)" in words and "preset" not in words
+
+
+def test_long_lists_of_choices_stand_below_the_option(command):
+    lines = command("denoise", "--help").out.splitlines()
+    assert any(line.strip().startswith("--frame NAME") for line in lines)
+    assert any(line.strip().startswith("- b-spline-6:") for line in lines)
+    assert max(map(len, lines)) <= 120
+
+
 def test_help_of_the_program(command):
     result = command("--help")
     assert (result.code, result.err) == (0, "")
     assert "denoise the meshes of a file" in result.out
+    commands = [line.split()[0] for line in result.out.splitlines() if line.startswith("    ")]
+    names = ["denoise", "equalize", "bands"]
+    assert [word for word in commands if word in names] == names
 
 
 def test_version(command):
@@ -98,7 +123,28 @@ def test_version(command):
         (["denoise", "a.ply", "b.ply", "--lambda", "nan"], "Smoothing (λ) is nan"),
         (["denoise", "a.ply", "b.ply", "--iterations", "2.5"], "'2.5' is not a whole number"),
         (["denoise", "a.ply", "b.ply", "--stencil", "round"], "'round' is not one of mean, straight"),
-        (["denoise", "a.ply", "b.ply", "--preset", "best"], "'best' is not one of tri-1, tri-2, bilateral"),
+        (
+            ["denoise", "a.ply", "b.ply", "--preset", "best"],
+            "'best' is not one of auto, tri-1, tri-2, quad-1",
+        ),
+        (["denoise", "a.ply", "b.ply", "--frame", "haar"], "'haar' is not one of auto, box-spline-111"),
+        (["denoise", "a.ply", "b.ply", "--levels", "0"], "Levels is 0; it must be between 1 and 6"),
+        (["denoise", "a.ply", "b.ply", "--levels", "two"], "'two' is not a whole number"),
+        (["bands"], "required: IN, --out"),
+        (["bands", "a.ply"], "required: --out"),
+        (["bands", "a.ply", "--out", "b.npz", "--levels", "7"], "Levels is 7; it must be between 1 and 6"),
+        (["bands", "a.ply", "--out", "b.npz", "--max-size", "nan"], "'nan' is not a number of megabytes"),
+        (["bands", "a.ply", "--out", "b.npz", "--lambda", "1"], "unrecognized arguments: --lambda 1"),
+        (["equalize", "a.ply", "b.ply"], "required: --gains"),
+        (["equalize", "a.ply", "b.ply", "--gains", ""], "there are no gains"),
+        (["equalize", "a.ply", "b.ply", "--gains", "1,much"], "'1,much' is not a list of numbers"),
+        (["equalize", "a.ply", "b.ply", "--gains", "1,,2"], "'1,,2' is not a list of numbers"),
+        (["equalize", "a.ply", "b.ply", "--gains", "1 2"], "'1 2' is not a list of numbers"),
+        (["equalize", "a.ply", "b.ply", "--gains", "1,nan"], "the gain of level 2 is nan"),
+        (["equalize", "a.ply", "b.ply", "--gains=-1"], "the gain of level 1 is -1; it must be from 0 to 100"),
+        (["equalize", "a.ply", "b.ply", "--gains", "101"], "the gain of level 1 is 101"),
+        (["equalize", "a.ply", "b.ply", "--gains", "1,1,1,1,1,1,1"], "there are 7 gains, but at most 6"),
+        (["equalize", "a.ply", "b.ply", "--gains", "1", "--levels", "2"], "unrecognized arguments: --levels"),
     ],
 )
 def test_usage_errors(fails, arguments, message):

@@ -43,6 +43,27 @@ def test_malformed_meshes(command, shared_meshes, read_ply, tmp_path, folder):
             assert all(line.startswith("framelet: warning: ") for line in result.err.splitlines())
 
 
+@pytest.mark.parametrize("folder", ["nonmanifold", "bad"])
+@pytest.mark.parametrize("name", ["bands", "equalize"])
+def test_malformed_meshes_in_other_commands(command, shared_meshes, read_ply, tmp_path, name, folder):
+    target = tmp_path / ("out.npz" if name == "bands" else "out.ply")
+    words = ["--out", target] if name == "bands" else [target, "--gains", "0.5"]
+    for source in sorted((shared_meshes / folder).iterdir()):
+        target.unlink(missing_ok=True)
+        result = command(name, source, *words)
+        assert "Traceback" not in result.err, source.name
+        assert target.exists() == (result.code == 0), source.name
+        if result.code:
+            assert result.code == 1 and result.err.count("\n") == 1, (source.name, result.err)
+            # Loose triangles and single faces have nothing to pair.
+            assert source.name in REFUSED or "too small" in result.err, (source.name, result.err)
+        elif name == "equalize":
+            assert np.isfinite(read_ply(target).vertices).all(), source.name
+        else:
+            with np.load(target, allow_pickle=False) as arrays:
+                assert np.isfinite(arrays["low"]).all() and np.isfinite(arrays["L1"]).all(), source.name
+
+
 @pytest.mark.parametrize("name", ["tiny_1e-6", "offset_1e7", "anisotropic_1e4", "flat_quads"])
 def test_extreme_sizes_as_obj(command, shared_meshes, read_obj, tmp_path, name):
     source = shared_meshes / "bad" / f"{name}.obj"
