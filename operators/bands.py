@@ -243,11 +243,11 @@ def clear_object(obj: bpy.types.Object) -> None:
 
 def find_note_cells(surface: SurfaceMesh, note: BandNote) -> Cells:
     """Return the cells on which the finest bands of a cell-centered frame live."""
-    from ..core import BANKS, connect
+    from ..core import BANKS
     from ..core.stencils.cells import find_cells
 
     with_triangles = BANKS[note.frame].lattice == "ANY"
-    return find_cells(surface, connect(surface), with_triangles=with_triangles)
+    return find_cells(surface, with_triangles=with_triangles)
 
 
 def _analyze(surface: SurfaceMesh, frame: str, stencil: str, levels: int, boundary: str) -> FrameCoefficients:

@@ -36,10 +36,17 @@ def set_mirrored(
 
 
 def inner_means(
-    builder: StencilBuilder, values: NDArray[np.int32], connectivity: Connectivity, wanted: NDArray[np.intp]
+    builder: StencilBuilder,
+    values: NDArray[np.int32],
+    connectivity: Connectivity,
+    wanted: NDArray[np.intp],
+    n_outer: int,
 ) -> NDArray[np.int32]:
-    """Return means over what lies between the ends of open rings; the vertex itself where nothing does."""
-    counts = connectivity.valence[wanted] - 2
+    """Return means over open rings without their ends; the vertex itself where nothing is left.
+
+    `n_outer` entries are left out: 2 of the near members, 3 of the far ones, of which there is one less.
+    """
+    counts = np.maximum(connectivity.valence[wanted] - n_outer, 0)
     points, is_filled = builder.add_means(values, connectivity.ring_offset[wanted] + 1, counts)
     result = wanted.astype(np.int32)
     result[is_filled] = points

@@ -37,7 +37,7 @@ class Cells(NamedTuple):
     n_quads: int
 
 
-def find_cells(surface: SurfaceMesh, connectivity: Connectivity, *, with_triangles: bool) -> Cells:
+def find_cells(surface: SurfaceMesh, *, with_triangles: bool) -> Cells:
     """Find the cells of a mesh: its quads and, if wanted, its interior edges between two triangles."""
     sizes = surface.face_sizes()
     quads = np.flatnonzero(sizes == 4).astype(np.int32)
@@ -52,11 +52,11 @@ def find_cells(surface: SurfaceMesh, connectivity: Connectivity, *, with_triangl
     start, stop = vertex, vertex[half_edges.next_corner]
     corner = np.arange(surface.n_corners)
     # Of the two half-edges of a pair, the one from the lower-numbered end; of two alike, the first.
-    is_first = (start < stop) & ((start[partner] > stop[partner]) | (corner < partner))
-    is_pair = (partner >= 0) & (size == 3) & (size[partner] == 3) & is_first
-    h = np.flatnonzero(is_pair)
+    is_rising, other_rises = start < stop, (start < stop)[partner]
+    is_first = np.where(is_rising == other_rises, corner < partner, is_rising)
+    h = np.flatnonzero((partner >= 0) & (size == 3) & (size[partner] == 3) & is_first)
     left, right = vertex[half_edges.previous_corner[h]], vertex[half_edges.previous_corner[partner[h]]]
-    pairs = np.stack((start[h], right, stop[h], left), axis=1)
+    pairs = np.stack((np.minimum(start[h], stop[h]), right, np.maximum(start[h], stop[h]), left), axis=1)
     return Cells(
         np.concatenate((corners, pairs)), np.concatenate((quads, surface.corner_edge[h])), len(quads)
     )
@@ -146,12 +146,7 @@ def _set_orbit_means(
     is_way_out = (target != corners[row, (k + 1) % 4]) & (target != corners[row, k - 1])
     spokes[~is_way_out] = -1
     a, b, swing = walk
-    far, near = max(a, b), min(a, b)
-    ends = grid.march(spokes, far - 1)
-    if near:
-        walks = [grid.target(grid.march(grid.turn(ends, way), near - 1)) for way in (-swing, swing)]
-    else:
-        walks = [grid.target(ends)]
+    walks = grid.orbit(spokes, swing, max(a, b), min(a, b))
     values = np.stack(walks, axis=1).ravel().astype(np.int32)
     means, is_filled = builder.add_means(values, front * len(walks), counts * len(walks))
     points[cells[is_filled]] = means

@@ -76,7 +76,7 @@ def _fill_rim(builder: StencilBuilder, members: Members, wanted: NDArray[np.intp
     assert members.far is not None
     connectivity = members.connectivity
     set_rim_pair(builder, members, wanted, NEAR[0], NEAR[2])
-    set_mirrored(builder, NEAR[1], wanted, inner_means(builder, members.near, connectivity, wanted))
+    set_mirrored(builder, NEAR[1], wanted, inner_means(builder, members.near, connectivity, wanted, 2))
     offset = connectivity.ring_offset[wanted]
     is_pair = connectivity.all_quads[wanted] & (connectivity.valence[wanted] == 3)
     pair = wanted[is_pair]

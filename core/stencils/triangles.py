@@ -66,7 +66,8 @@ def fill_triangles(
         assert members.far is not None
         fill_mean(builder, members.far, connectivity, irregular, ACROSS)
         rim = np.flatnonzero(found & is_rim)
-        set_mirrored(builder, ACROSS[0], rim, inner_means(builder, members.far, connectivity, rim))
+        # The outermost two lie on the border or beyond; with three triangles one is left, the lattice's own.
+        set_mirrored(builder, ACROSS[0], rim, inner_means(builder, members.far, connectivity, rim, 3))
         _fill_across(builder, members, regular)
 
 
@@ -81,7 +82,7 @@ def _fill_rim(builder: StencilBuilder, members: Members, wanted: NDArray[np.intp
     set_rim_pair(builder, members, wanted, RING[0], RING[3])
     inside = connectivity.valence[wanted] - 2
     near = np.maximum((inside + 1) // 3, 1)
-    means = inner_means(builder, members.near, connectivity, wanted)
+    means = inner_means(builder, members.near, connectivity, wanted, 2)
     for place, position in ((RING[1], near), (RING[2], inside + 1 - near)):
         single = members.near[connectivity.ring_offset[wanted] + np.maximum(position, 0)]
         takes_mean = (inside > 2) if is_mean else (inside < 1)

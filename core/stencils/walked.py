@@ -29,7 +29,7 @@ def make_walked_stencil(
     """
     grid = Grid(connectivity, surface.vertices)
     if bank.is_cell_centered and level == 0:
-        cells = find_cells(surface, connectivity, with_triangles=bank.lattice == "ANY")
+        cells = find_cells(surface, with_triangles=bank.lattice == "ANY")
         builder = StencilBuilder(surface.n_vertices, bank.offsets, len(cells.corners))
         fill_cells(builder, grid, connectivity, cells, bank)
         return builder.finish()
@@ -151,10 +151,6 @@ def _fill_orbit_means(
     begin = connectivity.ring_offset[sites]
     front = np.cumsum(counts) - counts
     spokes = np.arange(counts.sum()) + np.repeat(begin - front, counts)
-    turned = np.roll(spokes, -1)
-    last = front + counts - 1
-    turned[last] = np.where(connectivity.is_boundary[sites], -1, begin)
-    turned[np.repeat(connectivity.is_non_manifold[sites], counts)] = -1
     swing = 2 if len(ring) == 6 else 1
     means: dict[tuple[int, int], tuple[NDArray[np.int32], NDArray[np.bool_]]] = {}
     for place in builder.row_of:
@@ -163,9 +159,7 @@ def _fill_orbit_means(
         _, a, b = _sector_of(place, ring)
         orbit = (max(a, b), min(a, b))
         if orbit not in means:
-            walks = [*grid.sector(spokes, turned, swing, *orbit)]
-            if orbit[1] and orbit[0] != orbit[1]:
-                walks += grid.sector(spokes, turned, swing, orbit[1], orbit[0])
+            walks = grid.orbit(spokes, swing, *orbit)
             values = np.stack(walks, axis=1).ravel().astype(np.int32)
             means[orbit] = builder.add_means(values, front * len(walks), counts * len(walks))
         points, is_filled = means[orbit]

@@ -104,6 +104,20 @@ class Grid:
             two = self.target(self.march(self.turn(steps, swing), ahead - 1) if ahead else steps)
         return one, two
 
+    def orbit(self, spokes: Steps, swing: int, ahead: int, aside: int) -> list[NDArray[np.int64]]:
+        """Return where all walks of one shape end that begin with the given steps, each shape (n,).
+
+        The walks turn to either side, and go `ahead` or `aside` steps first; -1 where one ends too early.
+        """
+        if not aside:
+            return [self.target(self.march(spokes, ahead - 1))]
+        legs = [(ahead, aside)] if ahead == aside else [(ahead, aside), (aside, ahead)]
+        return [
+            self.target(self.march(self.turn(self.march(spokes, first - 1), way), second - 1))
+            for first, second in legs
+            for way in (-swing, swing)
+        ]
+
     def _find_straight(self, vertices: NDArray[np.floating]) -> Steps:
         """Return the step that goes straight on after each step."""
         connectivity = self._connectivity

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
@@ -16,6 +17,42 @@ from .level import Chunk, Points, Visit
 
 SLOTS_PER_CHUNK = 2**17
 """Taps that a chunk may hold, so that its arrays stay in the cache at any valence."""
+
+
+class Neighbors(NamedTuple):
+    """The stencil of every site: the site itself, then its neighbors.
+
+    Attributes
+    ----------
+    offset : ndarray, shape (N + 1,), int64
+        The neighbors of site k are `neighbor[offset[k]:offset[k + 1]]`.
+    neighbor : ndarray of int32
+        Sites.
+    is_ordered : ndarray, shape (N,), bool
+        Whether they are in ring order.
+    is_kept : ndarray, shape (N,), bool
+        Sites whose details shrinkage leaves alone.
+    """
+
+    offset: NDArray[np.int64]
+    neighbor: NDArray[np.int32]
+    is_ordered: NDArray[np.bool_]
+    is_kept: NDArray[np.bool_]
+
+
+def ring_neighbors(members: Members, boundary: str) -> Neighbors:
+    """Return one-rings as neighbors, without members that were not found.
+
+    Unless the boundary is FREE, the one-sided rings of boundary vertices are kept, as shrinking them would pull
+    the border inwards.
+    """
+    connectivity = members.connectivity
+    owner = np.repeat(np.arange(connectivity.n_vertices), connectivity.valence)
+    is_found = members.near >= 0
+    counts = np.bincount(owner[is_found], minlength=connectivity.n_vertices)
+    is_ordered = ~connectivity.is_non_manifold
+    is_kept = is_ordered & connectivity.is_boundary & (boundary != "FREE")
+    return Neighbors(np.concatenate(([0], np.cumsum(counts))), members.near[is_found], is_ordered, is_kept)
 
 
 class _Chunk:
@@ -41,15 +78,12 @@ class AdaptiveLevel:
 
     Parameters
     ----------
-    members : Members
-        One-rings, at level 0 or dilated. A neighbor that was not found is left out.
+    neighbors : Neighbors
+        The stencils.
     family : type
         `HarmonicBank` or `PairwiseBank`.
     out_measure : ndarray, shape (N,)
         Measure m' of this level's coefficients.
-    boundary : {"ALONG", "FIXED", "FREE"}
-        Unless FREE, shrinkage leaves the one-sided rings of boundary vertices alone, which would pull the
-        border inwards.
     dtype : dtype
         Precision to work in.
     blocks : Blocks
@@ -63,17 +97,16 @@ class AdaptiveLevel:
 
     def __init__(
         self,
-        members: Members,
+        neighbors: Neighbors,
         family: type[HarmonicBank] | type[PairwiseBank],
         out_measure: NDArray[np.float64],
-        boundary: str,
         dtype: DTypeLike,
         blocks: Blocks,
     ) -> None:
         self._blocks = blocks.sized(1)
         self._dtype = np.dtype(dtype)
-        self._n = members.connectivity.n_vertices
-        self._chunks = _make_chunks(members, family, boundary)
+        self._n = len(neighbors.is_kept)
+        self._chunks = _make_chunks(neighbors, family)
         taps = np.concatenate([chunk.taps.ravel() for chunk in self._chunks])
         flow = np.concatenate(
             [(chunk.bank.weights[:, None] * out_measure[chunk.vertices]).ravel() for chunk in self._chunks]
@@ -156,31 +189,24 @@ def _make_bank(
     return HarmonicBank(valence, is_ordered) if issubclass(family, HarmonicBank) else PairwiseBank(valence)
 
 
-def _make_chunks(
-    members: Members, family: type[HarmonicBank] | type[PairwiseBank], boundary: str
-) -> list[_Chunk]:
-    """Sort the vertices by the number of neighbors found and by whether these form a closed ring."""
-    connectivity = members.connectivity
-    n = connectivity.n_vertices
-    owner = np.repeat(np.arange(n), connectivity.valence)
-    is_found = members.near >= 0
-    found = np.bincount(owner[is_found], minlength=n)
-    offset = np.concatenate(([0], np.cumsum(found)))
-    near = members.near[is_found]
+def _make_chunks(neighbors: Neighbors, family: type[HarmonicBank] | type[PairwiseBank]) -> list[_Chunk]:
+    """Sort the sites by the number of neighbors, by whether these are ordered, and by what is kept."""
+    counts = np.diff(neighbors.offset)
     chunks: list[_Chunk] = []
     begin = 0
-    is_rim = connectivity.is_boundary & ~connectivity.is_non_manifold
-    for kind in (~is_rim & ~connectivity.is_non_manifold, is_rim, connectivity.is_non_manifold):
-        is_kept = kind is is_rim and boundary != "FREE"
-        for valence in np.unique(found[kind]):
-            bank = _make_bank(family, int(valence), kind is not connectivity.is_non_manifold)
-            unpenalized = slice(None) if is_kept else bank.unpenalized
-            group = np.flatnonzero(kind & (found == valence))
-            size = max(1, SLOTS_PER_CHUNK // bank.n_bands)
-            for part in np.split(group, range(size, len(group), size)):
-                taps = np.empty((valence + 1, len(part)), np.int32)
-                taps[0] = part
-                taps[1:] = near[offset[part] + np.arange(valence)[:, None]]
-                chunks.append(_Chunk(bank, part, taps, begin, unpenalized))
-                begin += taps.size
+    for is_ordered in (True, False):
+        for is_kept in (False, True):
+            kind = (neighbors.is_ordered == is_ordered) & (neighbors.is_kept == is_kept)
+            for count in np.unique(counts[kind]):
+                bank = _make_bank(family, int(count), is_ordered)
+                group = np.flatnonzero(kind & (counts == count))
+                size = max(1, SLOTS_PER_CHUNK // bank.n_bands)
+                for part in np.split(group, range(size, len(group), size)):
+                    taps = np.empty((count + 1, len(part)), np.int32)
+                    taps[0] = part
+                    taps[1:] = neighbors.neighbor[neighbors.offset[part] + np.arange(count)[:, None]]
+                    chunks.append(
+                        _Chunk(bank, part, taps, begin, slice(None) if is_kept else bank.unpenalized)
+                    )
+                    begin += taps.size
     return chunks

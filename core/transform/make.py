@@ -12,11 +12,11 @@ from ..frames import BANKS, FilterBank
 from ..frames.valence_masks import FAMILIES
 from ..stencils import make_stencil
 from ..stencils.dilation import dilate
-from ..stencils.members import Members, one_ring_members
+from ..stencils.members import one_ring_members
 from ..surface.connectivity import Connectivity, connect
 from ..surface.distance_rings import edge_adjacency
 from ..surface.surface_mesh import SurfaceMesh
-from .adaptive_level import AdaptiveLevel
+from .adaptive_level import AdaptiveLevel, Neighbors, ring_neighbors
 from .frame_transform import FrameTransform
 from .lattice_level import LatticeLevel
 from .level import Chunk
@@ -116,18 +116,19 @@ def _adaptive_transform(
     adjacency = edge_adjacency(connectivity)
     one = np.ones(surface.n_vertices)
     low = surface
-    neighbors: list[Members] = []
+    neighbors: list[Neighbors] = []
     for index in range(n_levels):
-        neighbors.append(dilate(members, low.vertices, adjacency, index, 1, blocks))
-        _check_reached(index, bool((neighbors[-1].near >= 0).any()))
+        dilated = dilate(members, low.vertices, adjacency, index, 1, blocks)
+        neighbors.append(ring_neighbors(dilated, boundary))
+        _check_reached(index, len(neighbors[-1].neighbor) > 0)
         if index + 1 < n_levels:
-            level = AdaptiveLevel(neighbors[-1], family, one, boundary, dtype, blocks)
+            level = AdaptiveLevel(neighbors[-1], family, one, dtype, blocks)
             points = np.ascontiguousarray(low.vertices.T, dtype)
             low = low.with_vertices(np.ascontiguousarray(level.forward(points, _ignore)[0].T))
     measure: NDArray[np.float64] = one
     levels: list[AdaptiveLevel] = []
     for chosen in reversed(neighbors):
-        level = AdaptiveLevel(chosen, family, measure, boundary, dtype, blocks)
+        level = AdaptiveLevel(chosen, family, measure, dtype, blocks)
         levels.insert(0, level)
         measure = level.measure
     return FrameTransform(tuple(levels), dtype)

@@ -114,7 +114,7 @@ def test_stored_bands_are_those_of_core(shape, name, frame):
         assert note.n_bands[level] == len(details)
         bank = BANKS.get(note.frame)
         if level == 0 and bank and bank.is_cell_centered:
-            cells = find_cells(surface, connect(surface), with_triangles=True)
+            cells = find_cells(surface, with_triangles=True)
             parts = []
             if cells.n_quads:
                 parts.append(("FACE", "", slice(0, cells.n_quads), surface.n_faces))

@@ -8,7 +8,6 @@ import bpy
 import meshes
 import numpy as np
 import pytest
-from framelet.core import connect
 from framelet.core.stencils.cells import find_cells
 from framelet.core.surface.geometry import vertex_normals
 from framelet.operators import mesh_bridge
@@ -105,7 +104,7 @@ def test_bands_on_cells_are_averaged_to_points(make_object, shape, rng):
     obj = make_object(meshes.noisy(shape(), rng), "Cells")
     bpy.ops.object.framelet_analyze(frame="B_SPLINE_1", levels=2)
     surface = mesh_bridge.read_surface(obj)
-    cells = find_cells(surface, connect(surface), with_triangles=True)
+    cells = find_cells(surface, with_triangles=True)
     on_edges = "framelet_L1_B2_edges" if cells.n_quads else "framelet_L1_B2"
     sums, counts = np.zeros(surface.n_vertices), np.zeros(surface.n_vertices)
     for cell, (owner, corners) in enumerate(zip(cells.owner, cells.corners, strict=True)):
