@@ -14,15 +14,7 @@ from dataclasses import dataclass, field, fields, replace
 from numbers import Integral, Real
 from typing import Any, NamedTuple
 
-from .frame_catalog import FRAME_CATALOG
-
-
-class Choice(NamedTuple):
-    """One value of a setting that is chosen from a list."""
-
-    identifier: str
-    label: str
-    description: str
+from .choices import BOUNDARIES, FRAMES, METHODS, SHRINKAGES, STENCILS, Choice
 
 
 @dataclass(frozen=True)
@@ -30,6 +22,7 @@ class SettingInfo:
     """What a user interface needs to know about one setting.
 
     `soft_maximum` is where a slider ends; typing may go up to `maximum`. `symbol` is the paper's letter.
+    `methods` are the methods that use the setting; empty for all.
     """
 
     label: str
@@ -39,51 +32,15 @@ class SettingInfo:
     soft_maximum: float | None = None
     choices: tuple[Choice, ...] = ()
     symbol: str = ""
+    methods: tuple[str, ...] = ()
+
+    def has_effect(self, method: str) -> bool:
+        """Tell whether a method uses the setting."""
+        return not self.methods or method in self.methods
 
 
 def _setting(default: Any, label: str, description: str, **info: Any) -> Any:
     return field(default=default, metadata={"info": SettingInfo(label, description, **info)})
-
-
-METHODS = (
-    Choice("POSITIONS", "Positions (paper)", "Split Bregman on vertex positions with a tight wavelet frame"),
-    Choice(
-        "BILATERAL", "Bilateral", "Bilateral mesh filtering (Fleishman et al. 2003), the paper's baseline"
-    ),
-)
-FRAMES = (
-    Choice("AUTO", "Automatic", "Box spline on triangles, linear spline on quads, adaptive on anything else"),
-    *(Choice(entry.identifier, entry.label, entry.description) for entry in FRAME_CATALOG),
-)
-STENCILS = (
-    Choice(
-        "MEAN",
-        "Mean",
-        "At irregular vertices every tap is the mean of the one-ring; smooths more, blurs edges",
-    ),
-    Choice(
-        "STRAIGHT",
-        "Straight",
-        "At irregular vertices neighbors are paired along the straightest lines; keeps edges",
-    ),
-    Choice("ADAPTIVE", "Adaptive", "Masks fit each vertex's valence, whatever the frame; exactly tight"),
-)
-SHRINKAGES = (
-    Choice(
-        "BANDS", "Bands", "Each coordinate is shrunk by its norm over all bands (4.5); depends on the axes"
-    ),
-    Choice(
-        "VECTOR", "Vector", "Each band is shrunk by the length of its vector; does not depend on the axes"
-    ),
-    Choice("SCALAR", "Scalar", "Each number is shrunk by itself (5.5); depends on the axes"),
-)
-BOUNDARIES = (
-    Choice("FIXED", "Fixed", "Boundary vertices do not move"),
-    Choice(
-        "ALONG", "Along", "Boundaries are smoothed along themselves and are not pulled inwards; corners stay"
-    ),
-    Choice("FREE", "Free", "Boundary vertices move like all others, so that open borders shrink"),
-)
 
 
 @dataclass(frozen=True)
@@ -100,13 +57,26 @@ class DenoiseSettings:
     """
 
     method: str = _setting("POSITIONS", "Method", "How the surface is cleaned", choices=METHODS)
-    frame: str = _setting("AUTO", "Frame", "The filter bank of the wavelet frame", choices=FRAMES)
-    stencil: str = _setting(
-        "STRAIGHT", "Stencil", "Which points fill the masks at irregular vertices", choices=STENCILS
+    frame: str = _setting(
+        "AUTO", "Frame", "The filter bank of the wavelet frame", choices=FRAMES, methods=("POSITIONS",)
     )
-    shrinkage: str = _setting("VECTOR", "Shrinkage", "What is shrunk together", choices=SHRINKAGES)
+    stencil: str = _setting(
+        "STRAIGHT",
+        "Stencil",
+        "Which points fill the masks at irregular vertices",
+        choices=STENCILS,
+        methods=("POSITIONS",),
+    )
+    shrinkage: str = _setting(
+        "VECTOR", "Shrinkage", "What is shrunk together", choices=SHRINKAGES, methods=("POSITIONS",)
+    )
     levels: int = _setting(
-        1, "Levels", "Number of scales; a larger number also removes coarser noise", minimum=1, maximum=6
+        1,
+        "Levels",
+        "Number of scales; a larger number also removes coarser noise",
+        minimum=1,
+        maximum=6,
+        methods=("POSITIONS",),
     )
     lambda_: float = _setting(
         0.25,
@@ -116,6 +86,7 @@ class DenoiseSettings:
         maximum=100.0,
         soft_maximum=2.0,
         symbol="λ",
+        methods=("POSITIONS",),
     )
     mu: float = _setting(
         1.0,
@@ -125,6 +96,7 @@ class DenoiseSettings:
         maximum=1e4,
         soft_maximum=20.0,
         symbol="μ",
+        methods=("POSITIONS",),
     )
     delta: float = _setting(
         0.0,
@@ -133,6 +105,7 @@ class DenoiseSettings:
         minimum=0.0,
         maximum=1.0,
         symbol="δ",
+        methods=("POSITIONS",),
     )
     iterations: int = _setting(
         10,
@@ -141,6 +114,7 @@ class DenoiseSettings:
         minimum=1,
         maximum=10000,
         soft_maximum=50,
+        methods=("POSITIONS", "BILATERAL"),
     )
     tolerance: float = _setting(
         0.0,
@@ -150,6 +124,7 @@ class DenoiseSettings:
         minimum=0.0,
         maximum=1.0,
         soft_maximum=0.01,
+        methods=("POSITIONS", "BILATERAL"),
     )
     boundary: str = _setting("ALONG", "Boundary", "What happens at open borders", choices=BOUNDARIES)
     sigma_c: float = _setting(
@@ -159,6 +134,7 @@ class DenoiseSettings:
         minimum=0.1,
         maximum=4.0,
         symbol="σc",
+        methods=("BILATERAL",),
     )
     sigma_s: float = _setting(
         0.0,
@@ -169,6 +145,65 @@ class DenoiseSettings:
         maximum=10.0,
         soft_maximum=1.0,
         symbol="σs",
+        methods=("BILATERAL",),
+    )
+    normal_threshold: float = _setting(
+        0.15,
+        "Threshold",
+        "Normals: differences between neighboring faces up to this count as noise, in units of the median "
+        "difference; larger removes stronger noise and more detail",
+        minimum=0.0,
+        maximum=10.0,
+        soft_maximum=1.0,
+        methods=("NORMALS",),
+    )
+    sharpness: float = _setting(
+        0.0,
+        "Sharpening",
+        "Normals: above 0, differences between faces that are much larger than this are kept whole, for "
+        "shapes made of planes; larger keeps fewer of them",
+        minimum=0.0,
+        maximum=2.0,
+        soft_maximum=0.5,
+        methods=("NORMALS",),
+    )
+    sigma_n: float = _setting(
+        0.3,
+        "Crease",
+        "Normals: faces whose directions differ by more than this are not averaged; larger smooths over "
+        "sharper creases",
+        minimum=0.01,
+        maximum=2.0,
+        soft_maximum=1.0,
+        symbol="σn",
+        methods=("NORMALS",),
+    )
+    average_steps: int = _setting(
+        10,
+        "Averaging Steps",
+        "Normals: steps of averaging in each pass; larger makes wider, flatter regions; 0 leaves it out",
+        minimum=0,
+        maximum=1000,
+        soft_maximum=40,
+        methods=("NORMALS",),
+    )
+    passes: int = _setting(
+        2,
+        "Passes",
+        "Normals: passes of averaging, each guided by the one before; larger finds creases better",
+        minimum=1,
+        maximum=100,
+        soft_maximum=5,
+        methods=("NORMALS",),
+    )
+    vertex_steps: int = _setting(
+        15,
+        "Vertex Steps",
+        "Normals: steps of fitting the vertices to the cleaned directions; larger fits them better",
+        minimum=1,
+        maximum=1000,
+        soft_maximum=50,
+        methods=("NORMALS",),
     )
     threads: int = _setting(
         0,
@@ -250,6 +285,16 @@ PRESETS: Mapping[str, Preset] = {
         "Quad-2",
         "The paper's Algorithm-Quad-2 for quads: straight pairs, vector shrinkage; keeps edges better",
         {"frame": "LINEAR_SPLINE", "stencil": "STRAIGHT", "shrinkage": "VECTOR", "lambda_": 0.2},
+    ),
+    "FREE_FORM": Preset(
+        "Free-Form",
+        "Normals of scans and organic shapes: keeps fine relief and soft edges",
+        {"method": "NORMALS", "sigma_n": 0.35, "average_steps": 4},
+    ),
+    "PRISMATIC": Preset(
+        "Prismatic",
+        "Normals of machine parts and buildings: flat faces and sharp creases",
+        {"method": "NORMALS", "sigma_n": 0.2, "average_steps": 25, "vertex_steps": 20},
     ),
     "BILATERAL": Preset(
         "Bilateral",

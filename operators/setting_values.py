@@ -27,8 +27,7 @@ PROPERTY_NAMES = ("preset", *SETTING_NAMES)
 FRAME_NAMES = ("frame", "stencil", "levels", "boundary")
 """The settings of the frame transform itself."""
 
-_FRAME_ONLY = frozenset({"frame", "stencil", "shrinkage", "levels", "lambda_", "mu", "delta"})
-_BILATERAL_ONLY = frozenset({"sigma_c", "sigma_s"})
+_INFO = {item.name: item.metadata["info"] for item in fields(DenoiseSettings)}
 
 # True while a preset fills the fields, so that their own updates do not answer.
 _is_filling = False
@@ -36,7 +35,7 @@ _is_filling = False
 
 def has_effect(method: str, name: str) -> bool:
     """Tell whether a setting is used by a method."""
-    return name not in (_FRAME_ONLY if method == "BILATERAL" else _BILATERAL_ONLY)
+    return name not in _INFO or _INFO[name].has_effect(method)
 
 
 def fill(properties: Any, settings: DenoiseSettings, keep: tuple[str, ...] = ()) -> None:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from ..blocks import Blocks
+from ..normals.filter import normal_filter
 from ..settings import DenoiseSettings
 from ..surface.checks import check_surface
 from ..surface.connectivity import Connectivity, connect
@@ -80,6 +81,8 @@ def denoise(
         constraints = find_constraints(surface, connectivity, settings, movable, dtype)
         if settings.method == "BILATERAL":
             solved = bilateral_filter(noisy, surface, connectivity, settings, constraints, blocks, callback)
+        elif settings.method == "NORMALS":
+            solved = normal_filter(noisy, surface, connectivity, settings, constraints, blocks, callback)
         else:
             # Chosen on the normalized surface in full precision, so that rounding decides nothing.
             transform = make_transform(

@@ -43,8 +43,8 @@ class Neighbors(NamedTuple):
 def ring_neighbors(members: Members, boundary: str) -> Neighbors:
     """Return one-rings as neighbors, without members that were not found.
 
-    Unless the boundary is FREE, the one-sided rings of boundary vertices are kept, as shrinking them would pull
-    the border inwards.
+    Unless the boundary is FREE, the one-sided rings of boundary vertices are kept, as shrinking them would
+    pull the border inwards.
     """
     connectivity = members.connectivity
     owner = np.repeat(np.arange(connectivity.n_vertices), connectivity.valence)

@@ -1,0 +1,118 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The normal-field engine: pilot, second stage, vertex update."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..blocks import Blocks
+from ..denoising.constraints import Constraints
+from ..denoising.progress import rms_motion
+from ..denoising.report import Callback
+from ..settings import DenoiseSettings
+from ..surface.connectivity import Connectivity
+from ..surface.geometry import face_area_vectors
+from ..surface.surface_mesh import SurfaceMesh
+from .averaging import GuidedAverage
+from .neighbors import edge_neighbors, faces_of_vertices
+from .pilot import ITERATIONS, Tick, n_rounds, pilot_normals, unit_columns
+from .vertex_update import face_centroids, update_vertices
+
+
+class _Stopped(Exception):
+    """Raised inside when the callback asks to stop."""
+
+
+def normal_filter(
+    noisy: NDArray[np.floating],
+    surface: SurfaceMesh,
+    connectivity: Connectivity,
+    settings: DenoiseSettings,
+    constraints: Constraints,
+    blocks: Blocks,
+    callback: Callback | None = None,
+) -> tuple[NDArray[np.floating], int, bool]:
+    """Clean the normals of the faces, then move the vertices until they fit.
+
+    Parameters
+    ----------
+    noisy : ndarray, shape (3, N)
+        Noisy positions in mean edge lengths, coordinates in rows; not modified.
+    surface : SurfaceMesh
+        The mesh, for its faces.
+    connectivity : Connectivity
+        Its neighborhoods.
+    settings : DenoiseSettings
+        `normal_threshold`, `sharpness`, `sigma_n`, `average_steps`, `passes`, `vertex_steps`.
+    constraints : Constraints
+        Vertices that may not move freely.
+    blocks : Blocks
+        Threads to work on.
+    callback : callable, optional
+        See `report.Callback`; the change is 0 until the vertices move.
+
+    Returns
+    -------
+    points : ndarray, shape (3, N)
+        Denoised positions. If the run was stopped before the vertices moved, the noisy ones.
+    iterations : int
+        Vertex steps that ran.
+    is_stopped : bool
+        True if the callback stopped the run.
+    """
+    averages = settings.passes * settings.average_steps
+    total = n_rounds(settings.sharpness) * ITERATIONS + averages + settings.vertex_steps
+    done = 0
+
+    def tick(change: float = 0.0) -> None:
+        nonlocal done
+        done += 1
+        if callback is not None and callback(done / total, change):
+            raise _Stopped
+
+    points = noisy
+    steps = 0
+    try:
+        at_vertex = faces_of_vertices(surface)
+        normals = _filtered_normals(noisy, surface, connectivity, settings, blocks, tick)
+        for step in range(settings.vertex_steps):
+            moved = update_vertices(points, normals, surface, at_vertex, blocks)
+            constraints.apply(moved, noisy)
+            change = rms_motion(moved, points, blocks)
+            points, steps = moved, step + 1
+            tick(change)
+    except _Stopped:
+        return points, steps, True
+    return points, steps, False
+
+
+def _filtered_normals(
+    noisy: NDArray[np.floating],
+    surface: SurfaceMesh,
+    connectivity: Connectivity,
+    settings: DenoiseSettings,
+    blocks: Blocks,
+    tick: Tick,
+) -> NDArray[np.floating]:
+    """Return clean unit normals, shape (3, F)."""
+    neighbors = edge_neighbors(surface, connectivity)
+    area_vectors = np.ascontiguousarray(face_area_vectors(surface.with_vertices(noisy.T)).T, noisy.dtype)
+    areas = np.sqrt((area_vectors * area_vectors).sum(axis=0))
+    noisy_normals = unit_columns(area_vectors, np.zeros_like(area_vectors))
+    normals = pilot_normals(
+        noisy_normals, neighbors, settings.normal_threshold, settings.sharpness, blocks, tick
+    )
+    if not settings.average_steps:
+        return normals
+    centroids = face_centroids(noisy, surface)
+    own = np.repeat(np.arange(surface.n_faces), np.diff(neighbors.offset))
+    apart = centroids[:, neighbors.neighbor] - centroids[:, own]
+    distance = np.sqrt((apart * apart).sum(axis=0))
+    spatial_sigma = float(distance[distance > 0].mean()) if distance.any() else 1.0
+    at_vertex = faces_of_vertices(surface)
+    average = GuidedAverage(surface, at_vertex, centroids, areas, spatial_sigma, blocks)
+    for _ in range(settings.passes):
+        normals = average.smooth(noisy_normals, normals, settings.sigma_n, settings.average_steps, tick)
+    return normals

@@ -1,0 +1,56 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Faces around faces and faces around vertices."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..surface.connectivity import Connectivity
+from ..surface.surface_mesh import SurfaceMesh
+from ..transform.adaptive_level import Neighbors
+
+
+class Ragged(NamedTuple):
+    """Rows of different lengths: row i is `items[offset[i]:offset[i + 1]]`."""
+
+    offset: NDArray[np.int64]
+    items: NDArray[np.int32]
+
+
+def edge_neighbors(surface: SurfaceMesh, connectivity: Connectivity) -> Neighbors:
+    """Return the faces across the edges of each face; without exactly one, the face itself stands in."""
+    sizes = surface.face_sizes()
+    own = np.repeat(np.arange(surface.n_faces, dtype=np.int32), sizes)
+    across = np.where(connectivity.face_across >= 0, connectivity.face_across, own)
+    nothing = np.zeros(surface.n_faces, bool)
+    return Neighbors(surface.face_offset.astype(np.int64), across, nothing, nothing)
+
+
+def faces_of_vertices(surface: SurfaceMesh) -> Ragged:
+    """Return the faces at each vertex, ascending; a face that names a vertex twice counts twice."""
+    order = np.argsort(surface.corner_vertex, kind="stable")
+    own = np.repeat(np.arange(surface.n_faces, dtype=np.int32), surface.face_sizes())
+    counts = np.bincount(surface.corner_vertex, minlength=surface.n_vertices)
+    return Ragged(np.concatenate(([0], np.cumsum(counts))), own[order])
+
+
+def faces_around(surface: SurfaceMesh, at_vertex: Ragged, start: int, stop: int) -> Ragged:
+    """Return the faces that share a vertex with each face of a range, the face itself included, ascending."""
+    begin, end = surface.face_offset[start], surface.face_offset[stop]
+    vertex = surface.corner_vertex[begin:end]
+    counts = at_vertex.offset[vertex + 1] - at_vertex.offset[vertex]
+    place = np.arange(counts.sum()) + np.repeat(
+        at_vertex.offset[vertex] - (np.cumsum(counts) - counts), counts
+    )
+    row = np.repeat(np.repeat(np.arange(stop - start), surface.face_sizes()[start:stop]), counts)
+    keys = row * surface.n_faces + at_vertex.items[place]
+    keys.sort()
+    is_first = np.ones(len(keys), bool)
+    np.not_equal(keys[1:], keys[:-1], out=is_first[1:])
+    row, face = np.divmod(keys[is_first], max(surface.n_faces, 1))
+    found = np.bincount(row, minlength=stop - start)
+    return Ragged(np.concatenate(([0], np.cumsum(found))), face.astype(np.int32))
