@@ -44,7 +44,7 @@ format: ## Format the code and fix what ruff can fix
 
 .PHONY: test-core
 test-core: ## Test core/ and the release rules on plain Python and NumPy
-	$(ENVIRONMENT) run core --timeout $(TIMEOUT) -- -m pytest tests/core tests/release
+	$(ENVIRONMENT) run core --timeout $(TIMEOUT) -- -m pytest tests/core tests/release tests/benchmarks
 
 # test-4.2, test-4.5, test-5.2
 .PHONY: $(BLENDERS:%=test-%)

@@ -63,7 +63,8 @@ class DenoiseSettings:
     stencil: str = _setting(
         "STRAIGHT",
         "Stencil",
-        "Which points fill the masks at irregular vertices",
+        "Which points fill the masks at irregular vertices; masks wider than 3x3 and those on cells follow "
+        "the lines of the mesh instead, except with Adaptive",
         choices=STENCILS,
         methods=("POSITIONS",),
     )

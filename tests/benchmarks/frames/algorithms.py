@@ -13,12 +13,13 @@ PRESET_FACTORS = (0.25, 0.5, 0.7, 1.4, 2.0, 4.0)
 FRAME_FACTORS = (0.125, 0.25, 0.5, 2.0, 4.0)
 """What the default lambda is multiplied by, besides 1."""
 
-SIGMAS_C = (1.0, 1.5, 2.0)
+SIGMAS_C = (0.7, 1.0, 1.5, 2.0)
 SIGMAS_S = (0.0, 0.1, 0.15, 0.25, 0.4)
-"""Widths of the bilateral filter; a sigma_s of 0 measures the heights of the mesh, which is the default."""
+"""Widths of the bilateral filter; a sigma_s of 0 measures the heights of the mesh, which is the default. The
+largest sigma_c is left out on large meshes, for time."""
 
 LEVELS = (1, 2, 3)
-MAX_VERTICES = 9_000
+MAX_VERTICES = 7_000
 """Up to here every frame is run, on larger meshes only those of `ON_LARGE_MESHES`."""
 
 ON_LARGE_MESHES = (("BOX_SPLINE_111", "STRAIGHT"), ("LINEAR_SPLINE", "STRAIGHT"), ("ADAPTIVE", "ADAPTIVE"))
@@ -47,7 +48,7 @@ def algorithms_for(is_quad: bool, n_vertices: int, is_quick: bool) -> list[Algor
     is_quick : bool
         True leaves out most.
     """
-    found = [preset_algorithm(key) for key in preset_keys(is_quad)]
+    found = [preset_algorithm(key, n_vertices) for key in preset_keys(is_quad)]
     factors = FRAME_FACTORS[2:3] if is_quick else FRAME_FACTORS
     for frame, stencil in frames_for(is_quad):
         is_main = (frame, stencil) in ON_LARGE_MESHES
@@ -68,11 +69,12 @@ def preset_keys(is_quad: bool) -> tuple[str, ...]:
     return ("BILATERAL", "QUAD_1", "QUAD_2") if is_quad else ("BILATERAL", "TRI_1", "TRI_2")
 
 
-def preset_algorithm(key: str) -> Algorithm:
-    """Return a preset with its grid."""
+def preset_algorithm(key: str, n_vertices: int) -> Algorithm:
+    """Return a preset with its grid on a mesh of some size."""
     settings = PRESETS[key].settings
     if settings.method == "BILATERAL":
-        widths = [{"sigma_c": c, "sigma_s": s} for c, s in product(SIGMAS_C, SIGMAS_S)]
+        sigmas_c = SIGMAS_C if n_vertices <= MAX_VERTICES else SIGMAS_C[:-1]
+        widths = [{"sigma_c": c, "sigma_s": s} for c, s in product(sigmas_c, SIGMAS_S)]
         grid = tuple(w for w in widths if settings.with_changes(**w) != settings)
     else:
         grid = lambda_grid(settings, PRESET_FACTORS)
@@ -82,8 +84,8 @@ def preset_algorithm(key: str) -> Algorithm:
 def frames_for(is_quad: bool) -> list[tuple[str, str]]:
     """Return each frame that is made for the faces, with each stencil that makes a difference to it.
 
-    Masks that fit the valence take no stencil but their own, and those of the larger banks follow lines of the
-    mesh instead of a rule; with the stencil ADAPTIVE every frame is the frame ADAPTIVE.
+    Masks that fit the valence take no stencil but their own, and those of the larger banks follow lines of
+    the mesh instead of a rule; with the stencil ADAPTIVE every frame is the frame ADAPTIVE.
     """
     found = []
     for entry in FRAME_CATALOG:

@@ -6,13 +6,14 @@ import json
 import subprocess
 import sys
 from collections.abc import Callable
+from pathlib import Path
 from time import perf_counter
 from typing import NamedTuple
 
 import checkout  # noqa: F401
 import numpy as np
 from cases import mesh_folder
-from framelet.core import DenoiseSettings, SurfaceMesh, connect, denoise, make_transform
+from framelet.core import SurfaceMesh, connect, make_transform
 from framelet.core.blocks import Blocks
 from mesh_files import read_mesh
 from meshes import noisy, quad_torus, triangle_torus
@@ -40,14 +41,10 @@ class Cost(NamedTuple):
     """Number of levels; the coarsest has taps 2^(levels - 1) edges apart."""
     connect_seconds: float
     transform_seconds: float
-    denoise_seconds: float
-    """Of a run with ten iterations, connectivity and transform included."""
     start_megabytes: float
     """Peak memory before the transform, mesh and connectivity included."""
     transform_megabytes: float
     """Peak memory with the transform made."""
-    denoise_megabytes: float
-    """Peak memory after the run of ten iterations."""
 
 
 def measure_all(say: Callable[[str], None]) -> list[Cost]:
@@ -87,8 +84,8 @@ def measure_one(name: str, frame: str, levels: int) -> Cost:
         began = perf_counter()
         connectivity = connect(mesh, blocks)
         connected = perf_counter()
-        start_memory = peak_megabytes()
-        transform = make_transform(
+        start_megabytes = peak_megabytes()
+        make_transform(
             mesh,
             frame,
             stencil,
@@ -99,30 +96,28 @@ def measure_one(name: str, frame: str, levels: int) -> Cost:
             only_used_bands=True,
         )
         made = perf_counter()
-        transform_memory = peak_megabytes()
-    del transform, connectivity
-    run_began = perf_counter()
-    denoise(mesh, DenoiseSettings(frame=frame, stencil=stencil, levels=levels))
     return Cost(
-        name,
-        mesh.n_vertices,
-        frame,
-        levels,
-        connected - began,
-        made - connected,
-        perf_counter() - run_began,
-        start_memory,
-        transform_memory,
-        peak_megabytes(),
+        mesh=name,
+        vertices=mesh.n_vertices,
+        frame=frame,
+        levels=levels,
+        connect_seconds=connected - began,
+        transform_seconds=made - connected,
+        start_megabytes=start_megabytes,
+        transform_megabytes=peak_megabytes(),
     )
 
 
 def peak_megabytes() -> float:
     """Return the largest memory that this process has had so far."""
+    status = Path("/proc/self/status")
+    if status.is_file():
+        # On Linux `getrusage` also counts what the parent had when it started this process.
+        line = next(line for line in status.read_text().splitlines() if line.startswith("VmHWM"))
+        return int(line.split()[1]) / 1024.0
     import resource  # not on Windows
 
-    # Linux counts in kilobytes, macOS in bytes.
-    unit = 1.0 if sys.platform == "darwin" else 1024.0
+    unit = 1.0 if sys.platform == "darwin" else 1024.0  # bytes on macOS, kilobytes elsewhere
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit / MEGABYTE
 
 

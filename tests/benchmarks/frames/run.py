@@ -6,8 +6,8 @@ It needs Python and NumPy only:
 
     python3 .ci/environment.py run core -- tests/benchmarks/frames/run.py
 
-Meshes come from the folder that FRAMELET_MESHES names, by default shared/meshes beside the checkout; without one
-they are made in code.
+Meshes come from the folder that FRAMELET_MESHES names, by default shared/meshes beside the checkout; without
+one they are made in code.
 """
 
 import argparse
@@ -19,6 +19,7 @@ from algorithms import MAX_VERTICES
 from cases import LARGEST, case_names
 from dilation import Cost, measure_all
 from measuring import Row, run_all
+from records import read_records, write_records
 from tables import (
     Results,
     cost_table,
@@ -27,36 +28,47 @@ from tables import (
     level_table,
     preset_table,
     stencil_table,
-    write_csv,
 )
 
 PAGE = checkout.ROOT / "docs" / "benchmarks.md"
 LIST = checkout.ROOT / "docs" / "benchmarks_frames.md"
-FILE = Path(__file__).parent / "results.csv"
+FOLDER = Path(__file__).resolve().parent
+RESULTS, COSTS = "results.csv", "dilation.csv"
 
 
 def main() -> int:
     """Run the benchmark and return the exit code."""
     arguments = parse()
-    arguments.output.mkdir(parents=True, exist_ok=True)
     try:
-        names = case_names(arguments.meshes, arguments.quick)
+        rows, costs = measure(arguments)
     except ValueError as error:
         print(error, file=sys.stderr)
         return 2
-    costs = [] if arguments.quick or arguments.no_dilation else measure_all(say)
-    rows = run_all(names, arguments.quick, arguments.processes, say)
     sections = make_sections(rows, costs)
     text = "\n".join(f"## {title}\n\n{table}" for title, table in sections.items())
+    arguments.output.mkdir(parents=True, exist_ok=True)
     (arguments.output / "frames.md").write_text(text, encoding="utf-8")
-    write_csv(rows, arguments.output / "frames.csv")
-    say(f"Wrote frames.md and frames.csv in {arguments.output}.")
+    for folder in [arguments.output, *([FOLDER] if arguments.update else [])]:
+        write_records(rows, folder / RESULTS)
+        if costs:
+            write_records(costs, folder / COSTS)
+    say(f"Wrote frames.md and {RESULTS} in {arguments.output}.")
     if arguments.update:
         update_page(sections)
         LIST.write_text(list_page(sections["list"]), encoding="utf-8")
-        write_csv(rows, FILE)
-        say("Updated the tables in docs and results.csv.")
+        say("Updated the tables in docs.")
     return 0
+
+
+def measure(arguments: argparse.Namespace) -> tuple[list[Row], list[Cost]]:
+    """Return the results, of a new run or of an earlier one."""
+    if arguments.again is not None:
+        costs = arguments.again / COSTS
+        rows = read_records(Row, arguments.again / RESULTS)
+        return rows, read_records(Cost, costs) if costs.is_file() else []
+    names = case_names(arguments.meshes, arguments.quick)
+    rows = run_all(names, arguments.quick, arguments.processes, say)
+    return rows, [] if arguments.quick or arguments.no_dilation else measure_all(say)
 
 
 def parse() -> argparse.Namespace:
@@ -75,7 +87,16 @@ def parse() -> argparse.Namespace:
     parser.add_argument("--no-dilation", action="store_true", help="leave out time and memory of dilation")
     parser.add_argument("--processes", type=int, default=2, help="runs at a time (default: %(default)s)")
     parser.add_argument(
-        "--output", type=Path, default=Path("build/benchmarks"), help="folder for frames.md and frames.csv"
+        "--output",
+        type=Path,
+        default=Path("build/benchmarks"),
+        help="folder for the tables, frames.md, and the CSV files",
+    )
+    parser.add_argument(
+        "--again",
+        type=Path,
+        metavar="FOLDER",
+        help="only write the tables again, from the CSV files of a run",
     )
     parser.add_argument("--update", action="store_true", help="write the tables into docs as well")
     return parser.parse_args()
@@ -113,10 +134,10 @@ def list_page(table: str) -> str:
     """Return the page with every result."""
     return (
         "# All results\n\n"
-        "Written by `tests/benchmarks/frames/run.py --update`; [Benchmarks](benchmarks.md) explains the columns. "
-        "Angles in degrees, rms in mean edge lengths of the clean mesh, seconds on one thread; a λ with an asterisk "
-        "is the smallest or largest that was tried. The same as CSV: `tests/benchmarks/frames/results.csv`.\n\n"
-        + table
+        "Written by `tests/benchmarks/frames/run.py --update`; [Benchmarks](benchmarks.md) explains the\n"
+        "columns. Angles are in degrees, rms in mean edge lengths of the clean mesh, seconds on one thread.\n"
+        "A λ with an asterisk is the smallest or the largest that was tried.\n"
+        "The same as a CSV file: `tests/benchmarks/frames/results.csv`.\n\n" + table
     )
 
 

@@ -1,11 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Results as Markdown tables and as a CSV file."""
+"""Results as Markdown tables."""
 
-import csv
 import math
 from collections.abc import Iterable, Sequence
-from pathlib import Path
 
 from algorithms import LEVELS
 from dilation import Cost
@@ -90,7 +88,7 @@ def stencil_table(results: Results) -> str:
 
 def level_table(results: Results) -> str:
     """Return angle and rms of the main frames by number of levels."""
-    head = ["Mesh", "Frame"] + [f"{levels} levels, {choice}" for choice in CHOICES for levels in LEVELS]
+    head = ["Mesh", "Frame"] + [f"{_levels(levels)}, {choice}" for choice in CHOICES for levels in LEVELS]
     body = []
     for mesh in results.meshes():
         for name in ("BOX_SPLINE_111 STRAIGHT", "LINEAR_SPLINE STRAIGHT", "ADAPTIVE ADAPTIVE"):
@@ -107,7 +105,7 @@ def level_table(results: Results) -> str:
 
 def frame_table(results: Results, is_quad: bool) -> str:
     """Return every frame's angle, as a mean over the meshes on which all ran."""
-    head = ["Frame and stencil"] + [f"{levels} levels, {choice}" for choice in CHOICES for levels in LEVELS]
+    head = ["Frame and stencil"] + [f"{_levels(levels)}, {choice}" for choice in CHOICES for levels in LEVELS]
     head += ["Seconds, 1 level", "3 levels"]
     names = sorted({row.algorithm.rsplit(" ", 1)[0] for row in results.rows if row.group == "FRAMES"})
     meshes = [mesh for mesh in results.meshes(is_quad) if results.has(mesh, f"B_SPLINE_5 MEAN {LEVELS[-1]}")]
@@ -129,8 +127,8 @@ def frame_table(results: Results, is_quad: bool) -> str:
 
 def cost_table(costs: Iterable[Cost]) -> str:
     """Return time and memory of dilation."""
-    head = ["Mesh", "Vertices", "Frame", "Levels", "Widest ring", "Transform, s", "Denoise, s"]
-    head += ["Before, MB", "Transform, MB", "Denoise, MB"]
+    head = ["Mesh", "Vertices", "Frame", "Levels", "Widest ring", "Transform, s"]
+    head += ["Peak before, MB", "Peak after, MB"]
     body = [
         [
             cost.mesh,
@@ -139,10 +137,8 @@ def cost_table(costs: Iterable[Cost]) -> str:
             str(cost.levels),
             str(2 ** (cost.levels - 1)),
             f"{cost.transform_seconds:.2f}",
-            f"{cost.denoise_seconds:.2f}",
             f"{cost.start_megabytes:.0f}",
             f"{cost.transform_megabytes:.0f}",
-            f"{cost.denoise_megabytes:.0f}",
         ]
         for cost in costs
     ]
@@ -160,35 +156,12 @@ def full_list(results: Results) -> str:
         for row in results.rows:
             if row.mesh == mesh and row.choice == "default":
                 best = results.get(mesh, row.algorithm, "best")
-                measured = [f"{row.angle:.2f}", _number(row.crease_angle), f"{row.rms:.3f}", str(row.flips)]
-                of_best = [
-                    f"{best.angle:.2f}",
-                    _number(best.crease_angle),
-                    f"{best.rms:.3f}",
-                    str(best.flips),
-                ]
-                body.append(
-                    [row.algorithm, _knobs(row), *measured, f"{row.seconds:.2f}", _knobs(best), *of_best]
-                )
-        title = (
-            f"## {_mesh(noisy)}\n\nNoisy: angle {noisy.angle:.2f}, at creases {_number(noisy.crease_angle)}"
-        )
-        parts.append(f"{title}, rms {noisy.rms:.3f}, {noisy.flips} flips.\n\n" + markdown(head, body))
+                cells = [row.algorithm, _knobs(row), *_measured(row), f"{row.seconds:.2f}"]
+                body.append([*cells, _knobs(best), *_measured(best)])
+        angles = f"angle {noisy.angle:.2f}, at creases {_number(noisy.crease_angle)}"
+        text = f"Noisy: {angles}, rms {noisy.rms:.3f}, {noisy.flips} flips."
+        parts.append(f"## {_mesh(noisy)}\n\n{text}\n\n" + markdown(head, body))
     return "\n".join(parts)
-
-
-def write_csv(rows: Iterable[Row], path: Path) -> None:
-    """Write all rows; numbers that there are not stay empty."""
-    with path.open("w", encoding="utf-8", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(name.rstrip("_") for name in Row._fields)
-        for row in rows:
-            writer.writerow("" if value != value else _short(value) for value in row)
-
-
-def _short(value: object) -> object:
-    """Return a value with as many digits as tell anything."""
-    return f"{value:.6g}" if isinstance(value, float) else value
 
 
 def _knobs(row: Row) -> str:
@@ -196,6 +169,16 @@ def _knobs(row: Row) -> str:
     if math.isnan(row.lambda_):
         return f"{row.sigma_c:g}, {row.sigma_s:g}" if row.sigma_s else f"{row.sigma_c:g}, measured"
     return f"{row.lambda_:.3g}" + ("*" if row.is_at_end else "")
+
+
+def _measured(row: Row) -> list[str]:
+    """Return the four measures of a result."""
+    return [f"{row.angle:.2f}", _number(row.crease_angle), f"{row.rms:.3f}", str(row.flips)]
+
+
+def _levels(number: int) -> str:
+    """Return a number of levels in words."""
+    return f"{number} level{'' if number == 1 else 's'}"
 
 
 def _mesh(row: Row) -> str:
