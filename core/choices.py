@@ -57,7 +57,9 @@ SHRINKAGES = (
 BOUNDARIES = (
     Choice("FIXED", "Fixed", "Boundary vertices do not move"),
     Choice(
-        "ALONG", "Along", "Boundaries are smoothed along themselves and are not pulled inwards; corners stay"
+        "ALONG",
+        "Along",
+        "Boundaries are smoothed along themselves and are not pulled inwards; corners keep their place",
     ),
     Choice("FREE", "Free", "Boundary vertices move like all others, so that open borders shrink"),
 )

@@ -104,5 +104,7 @@ def _check(gains: Sequence[float], weights: NDArray[np.floating] | None, n_verti
     if weights is not None:
         if np.shape(weights) != (n_vertices,):
             raise ValueError(f"The weights have shape {np.shape(weights)}; expected ({n_vertices},).")
-        if not np.isfinite(weights).all():
-            raise ValueError("A weight is not a finite number; weights must be from 0 to 1.")
+        wrong = ~((weights >= 0.0) & (weights <= 1.0))  # NaN is wrong, too
+        if wrong.any():
+            vertex = int(np.flatnonzero(wrong)[0])
+            raise ValueError(f"The weight of vertex {vertex} is {weights[vertex]:g}; it must be from 0 to 1.")

@@ -43,7 +43,7 @@ def compare(surface: SurfaceMesh, reference: SurfaceMesh) -> Comparison:
     Raises
     ------
     ValueError
-        If the meshes have different numbers of vertices or different faces, or nothing to compare.
+        If the meshes have different numbers of vertices or different faces, or no faces, or no size.
     """
     if surface.n_vertices != reference.n_vertices:
         raise ValueError(
@@ -58,6 +58,9 @@ def compare(surface: SurfaceMesh, reference: SurfaceMesh) -> Comparison:
         )
     if not surface.n_faces:
         raise ValueError("The meshes have no faces; there is nothing to compare.")
+    edge = mean_edge_length(reference)
+    if not edge > 0.0:
+        raise ValueError("The reference has no size: all its faces have shrunk to points.")
     distance = np.linalg.norm(surface.vertices.astype(np.float64) - reference.vertices, axis=1)
     angle = normal_angles(face_normals(surface), face_normals(reference))
     angle = angle[np.isfinite(angle)]
@@ -66,7 +69,7 @@ def compare(surface: SurfaceMesh, reference: SurfaceMesh) -> Comparison:
         max_angle=float(angle.max()) if len(angle) else 0.0,
         rms_distance=float(np.sqrt(np.mean(distance**2))),
         max_distance=float(distance.max()),
-        mean_edge_length=mean_edge_length(reference),
+        mean_edge_length=edge,
         flipped_faces=int((angle > 90.0).sum()),
     )
 

@@ -187,3 +187,32 @@ def newell(points):
     for k in range(len(points)):
         total += 0.5 * np.cross(points[k - 1] - points[0], points[k] - points[0])
     return total
+
+
+def faces_across(mesh):
+    """Return the faces across the edges of each face, where a face stands in for none and for several."""
+    named = defaultdict(list)
+    for f, face in enumerate(faces_of(mesh)):
+        for place, v in enumerate(face):
+            named[frozenset((face[place - 1], v))].append((f, place))
+    table = []
+    for f, face in enumerate(faces_of(mesh)):
+        ends = [frozenset((v, face[(place + 1) % len(face)])) for place, v in enumerate(face)]
+        places = [(f, (place + 1) % len(face)) for place in range(len(face))]
+        is_pair = [len(edge) == len(named[edge]) == 2 for edge in ends]
+        table.append(
+            [
+                next(g for g, p in named[edge] if (g, p) != place) if good else f
+                for edge, place, good in zip(ends, places, is_pair, strict=True)
+            ]
+        )
+    return table
+
+
+def faces_touching(mesh):
+    """Return, for each face, the faces that share a vertex with it, itself included, ascending."""
+    named = defaultdict(set)
+    for f, face in enumerate(faces_of(mesh)):
+        for v in face:
+            named[v].add(f)
+    return [sorted(set().union(*(named[v] for v in face))) for face in faces_of(mesh)]

@@ -13,17 +13,26 @@ from ..operators.setting_values import copy_settings
 from . import band_panels
 from .layouts import FrameletPanel, draw_lengths, draw_settings, draw_value
 
-MAIN_NAMES = ("frame", "levels", "lambda_", "mu", "normal_threshold", "sigma_n", "sigma_c", "sigma_s")
+MAIN_NAMES = (
+    "frame",
+    "levels",
+    "lambda_",
+    "mu",
+    "normal_threshold",
+    "sigma_n",
+    "average_steps",
+    "sigma_c",
+    "sigma_s",
+    "iterations",
+)
 ADVANCED_NAMES = (
     "method",
     "stencil",
     "shrinkage",
     "delta",
     "sharpness",
-    "average_steps",
     "passes",
     "vertex_steps",
-    "iterations",
     "tolerance",
     "boundary",
     "threads",

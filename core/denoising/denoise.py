@@ -83,6 +83,8 @@ def denoise(
             solved = bilateral_filter(noisy, surface, connectivity, settings, constraints, blocks, callback)
         elif settings.method == "NORMALS":
             solved = normal_filter(noisy, surface, connectivity, settings, constraints, blocks, callback)
+        elif settings.lambda_ == 0.0:
+            solved = noisy, settings.iterations, False  # nothing is shrunk, so nothing moves
         else:
             # Chosen on the normalized surface in full precision, so that rounding decides nothing.
             transform = make_transform(

@@ -19,9 +19,10 @@ HIGHEST_VALENCE = 1024
 """Above it the search over all pairs would take more memory than such a fan is worth; MEAN serves there."""
 
 TIE = 2.0**-20
-"""Angles (their cosines) and relative lengths closer than this count as equal; the first in ring order wins.
+"""Angles (their cosines) and relative lengths closer than this count as equal.
 
-Rounding then does not decide on symmetric meshes, so that rotating one does not change its stencils."""
+Rounding then does not decide on symmetric meshes, so that rotating one does not change its stencils. Of equal
+angles the pair with the shorter spokes wins, of equal spokes the first in ring order."""
 
 
 def fill_straight(
@@ -125,7 +126,7 @@ def pair_positions(
     """Return the ring positions of the pairs of `straight_pairs`, each (n,)."""
     valence, n = rings.shape
     first, second = np.triu_indices(valence, 1)
-    cosine = _pair_cosines(vertices, centers, rings, first, second)
+    cosine = _pair_ranks(vertices, centers, rings, first, second)
     remaining = cosine.copy()
     chosen = []
     left = np.full(n, 10)  # the positions 0 to 4 of a ring of five sum to 10
@@ -143,14 +144,17 @@ def pair_positions(
     return chosen
 
 
-def _pair_cosines(
+def _pair_ranks(
     vertices: NDArray[np.floating],
     centers: NDArray[np.intp],
     rings: NDArray[np.int32],
     first: NDArray[np.intp],
     second: NDArray[np.intp],
 ) -> NDArray[np.float64]:
-    """Return the cosine of the angle between each pair of spokes, in steps of `TIE`, shape (pairs, n)."""
+    """Rank pairs of spokes by the cosine of their angle, then by their length, shape (pairs, n).
+
+    The cosine is in whole steps of `TIE`; the length takes what is behind the point.
+    """
     center = vertices[centers].T.astype(np.float64)
     spokes = vertices[rings].transpose(2, 0, 1) - center[:, None]
     length = np.sqrt(spokes[0] ** 2 + spokes[1] ** 2 + spokes[2] ** 2)
@@ -158,7 +162,9 @@ def _pair_cosines(
     cosine = spokes[0, first] * spokes[0, second]
     cosine += spokes[1, first] * spokes[1, second]
     cosine += spokes[2, first] * spokes[2, second]
-    return np.rint(cosine / TIE)
+    reach = length.max(axis=0)
+    reach = (length[first] + length[second]) / np.where(reach > 0, 4.0 * reach, 1.0)
+    return np.rint(cosine / TIE) + np.rint(reach / TIE) * TIE
 
 
 def complete_rings(

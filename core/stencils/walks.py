@@ -4,7 +4,8 @@
 
 A *step* is a directed edge: the entry of the one-ring table that leads from its owner to a neighbor; -1 is no
 step. At a regular vertex straight on is the opposite edge. At an irregular one it is the edge that makes the
-largest angle with the one arrived by; on a border it is the other border edge, and none from inside.
+largest angle with the one arrived by; on a border it is the other border edge, except at corners, and none
+from inside.
 """
 
 from __future__ import annotations
@@ -129,7 +130,8 @@ class Grid:
         is_closed = ~connectivity.is_boundary & ~connectivity.is_non_manifold
         regular = is_regular[vertex]
         following[regular] = (offset + (place + valence // 2) % np.maximum(valence, 1))[regular]
-        rim = self._is_open[vertex] & ((place == 0) | (place == valence - 1))
+        # A border vertex with one face is a corner, where no line goes straight on.
+        rim = self._is_open[vertex] & (valence > 2) & ((place == 0) | (place == valence - 1))
         following[rim] = (offset + valence - 1 - place)[rim]
         irregular = is_closed & ~is_regular
         by_angle = self._straightest(vertices, irregular)

@@ -106,10 +106,6 @@ class Connectivity:
         """Return the one-ring of a vertex."""
         return self.ring[self.ring_offset[vertex] : self.ring_offset[vertex + 1]]
 
-    def ring_rows(self, vertices: NDArray[np.intp], valence: int) -> NDArray[np.int32]:
-        """Return the one-rings of vertices of one valence, one column each, shape (valence, n), int32."""
-        return self.ring[self.ring_offset[vertices] + np.arange(valence)[:, None]]
-
 
 def connect(surface: SurfaceMesh, blocks: Blocks | None = None) -> Connectivity:
     """Find the neighborhoods of a mesh.

@@ -14,7 +14,7 @@ from ..stencils import make_stencil
 from ..stencils.dilation import dilate
 from ..stencils.members import one_ring_members
 from ..surface.connectivity import Connectivity, connect
-from ..surface.distance_rings import edge_adjacency
+from ..surface.distance_rings import distance_rings, edge_adjacency, face_adjacency
 from ..surface.surface_mesh import SurfaceMesh
 from .adaptive_level import AdaptiveLevel, Neighbors, ring_neighbors
 from .frame_transform import FrameTransform
@@ -84,7 +84,8 @@ def make_transform(
     for index in range(n_levels):
         chosen = make_stencil(low, connectivity, stencil, boundary, blocks, bank, index)
         level = LatticeLevel(chosen, bank, dtype, blocks, bands)
-        _check_reached(index, bool((chosen.slots != chosen.slots[:1]).any()))
+        if index:
+            _check_reached(index, _is_reached(surface, connectivity, bank, index))
         levels.append(level)
         if index + 1 < n_levels:
             points = np.ascontiguousarray(low.vertices.T, dtype)
@@ -120,7 +121,7 @@ def _adaptive_transform(
     for index in range(n_levels):
         dilated = dilate(members, low.vertices, adjacency, index, 1, blocks)
         neighbors.append(ring_neighbors(dilated, boundary))
-        _check_reached(index, len(neighbors[-1].neighbor) > 0)
+        _check_reached(index, not index or len(neighbors[-1].neighbor) > 0)
         if index + 1 < n_levels:
             level = AdaptiveLevel(neighbors[-1], family, one, dtype, blocks)
             points = np.ascontiguousarray(low.vertices.T, dtype)
@@ -138,9 +139,23 @@ def _ignore(_: int, __: Chunk) -> None:
     """Do nothing with the high bands of a chunk."""
 
 
+def _is_reached(surface: SurfaceMesh, connectivity: Connectivity, bank: FilterBank, index: int) -> bool:
+    """Return whether some vertices are 2^index steps apart on the bank's lattice.
+
+    Vertices are tried in chunks spread over the mesh; on all but the smallest meshes the first one decides.
+    """
+    is_quads = bank.lattice == "QUADS" or (bank.lattice == "ANY" and connectivity.has_quads)
+    adjacency = face_adjacency(surface, connectivity) if is_quads else edge_adjacency(connectivity)
+    n_tried = min(surface.n_vertices, 1024)
+    for vertex in np.linspace(0, surface.n_vertices - 1, n_tried).astype(int):
+        if len(distance_rings(adjacency, vertex, vertex + 1, {2**index})[2**index].vertex):
+            return True
+    return False
+
+
 def _check_reached(index: int, is_reached: bool) -> None:
     """Raise ValueError if no vertex has a neighbor at a level."""
-    if index and not is_reached:
+    if not is_reached:
         raise ValueError(
             f"The mesh is too small for {index + 1} levels: nothing is {2**index} edges apart; "
             f"use {index} level{'s' if index != 1 else ''} or fewer."

@@ -97,6 +97,8 @@ def _check_files(source: Path, target: Path, report: Path | None) -> None:
     file_type(target)
     if report is not None and report.resolve() in (source.resolve(), target.resolve()):
         raise CommandError(f"The report cannot be {report}, which is a mesh file here.", USAGE_ERROR)
+    if report is not None and report.suffix.lower() != ".json":
+        raise CommandError(f"The report cannot be {report}; its name must end in .json.", USAGE_ERROR)
     check_source(source)
     check_folder(target)
     if report is not None:

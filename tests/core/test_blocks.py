@@ -13,19 +13,28 @@ from framelet.core.blocks import BLOCK_SIZE, Blocks, available_cores
 from framelet.core.surface.geometry import mean_edge_length
 from meshes import flipped, mixed_sheet, noisy, pyramid, triangle_grid, triangle_torus, turned_over, union
 
+SMALL = 2048
+COLUMNS = 65
+
+
+@pytest.fixture
+def small_blocks(monkeypatch):
+    """Blocks small enough that meshes of thousands of vertices have several."""
+    monkeypatch.setattr(Blocks.__init__, "__defaults__", (0, SMALL))
+
 
 @pytest.fixture(scope="module")
 def large():
     """A noisy mesh of more than two blocks, open, with irregular vertices and two that are not manifold."""
-    mesh = triangle_grid(190, 175)
+    mesh = triangle_grid(75, COLUMNS)
     rng = np.random.default_rng(5)
     faces = mesh.corner_vertex.reshape(-1, 3)[rng.random(mesh.n_faces) > 0.01]
     return noisy(SurfaceMesh.from_faces(mesh.vertices, faces), rng)
 
 
 @pytest.mark.parametrize("preset", TRIANGLE_PRESETS)
-def test_threads_do_not_change_a_bit(preset, large):
-    assert large.n_vertices > 2 * BLOCK_SIZE
+def test_threads_do_not_change_a_bit(preset, large, small_blocks):
+    assert large.n_vertices > 2 * SMALL == 2 * Blocks().block_size
     settings = PRESETS[preset].settings.with_changes(iterations=2, delta=0.1, sigma_c=0.5)
     changes, results = [], []
     for threads in (1, 2, 4):
@@ -41,12 +50,12 @@ def test_threads_do_not_change_a_bit(preset, large):
 
 
 @pytest.mark.parametrize("preset", ["TRI_1", "TRI_2"])
-def test_nothing_happens_at_block_borders(preset, large):
+def test_nothing_happens_at_block_borders(preset, large, small_blocks):
     """A patch around a border, cut out and solved alone, has the same inside: it reaches one hop a step."""
     settings = PRESETS[preset].settings.with_changes(iterations=5, boundary="FREE")
     result = denoise(large, settings, dtype=np.float64)
-    for border in (BLOCK_SIZE, 2 * BLOCK_SIZE):
-        near = np.arange(border - 10 * 175, min(border + 10 * 175, large.n_vertices))
+    for border in (SMALL, 2 * SMALL):
+        near = np.arange(border - 10 * COLUMNS, min(border + 10 * COLUMNS, large.n_vertices))
         faces = large.corner_vertex.reshape(-1, 3)
         faces = faces[np.isin(faces, near).all(axis=1)]
         patch = SurfaceMesh.from_faces(large.vertices[near], faces - near[0])
@@ -54,7 +63,7 @@ def test_nothing_happens_at_block_borders(preset, large):
         local = denoise(
             patch, settings.with_changes(lambda_=settings.lambda_ * ratio), dtype=np.float64
         ).vertices
-        inside = np.abs(near - border) < 4 * 175
+        inside = np.abs(near - border) < 4 * COLUMNS
         assert np.abs(local[inside] - result.vertices[near][inside]).max() < 1e-9
 
 

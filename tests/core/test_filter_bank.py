@@ -10,7 +10,7 @@ from framelet.core.frames.box_spline import BOX_SPLINE_111, BOX_SPLINE_111_CANON
 from framelet.core.frames.filter_bank import unitary_extension_defects
 from framelet.core.frames.four_direction import BOX_SPLINE_FOUR_DIRECTION
 from framelet.core.frames.linear_spline import LINEAR_SPLINE, LINEAR_SPLINE_REDUCED
-from framelet.core.frames.mask_product import MaskProduct
+from framelet.core.frames.mask_product import SINGLE_THREAD_LIMIT, MaskProduct
 
 EXACT = 1e-13
 
@@ -198,7 +198,7 @@ def test_defects_are_measured():
 def test_mask_product(bank, dtype, tolerance, rng):
     """Also for many vertices, where the product is cut into steps, and for the Hadamard shortcut."""
     for rows in (np.arange(bank.n_bands), bank.used_bands, [0]):
-        for n in (0, 1, 9000):
+        for n in (0, 1, 50 + SINGLE_THREAD_LIMIT // (len(rows) * bank.n_taps)):
             matrix = rng.normal(size=(3, bank.n_taps, n)).astype(dtype)
             matrix.flags.writeable = False
             result = MaskProduct(bank.masks[rows], dtype)(matrix)

@@ -37,7 +37,7 @@ def literal(mesh, settings, hold=()):
 @pytest.mark.parametrize("name", ["triangle torus", "irregular torus", "prism", "octahedron", "soup"])
 def test_matches_the_literal_iteration(name, changes, frame, rng):
     mesh = read_only(noisy(MESHES[name](), rng))
-    settings = DenoiseSettings(frame=frame, boundary="FREE", iterations=7, **changes)
+    settings = DenoiseSettings(frame=frame, boundary="FREE", iterations=4, **changes)
     result = denoise(mesh, settings, dtype=np.float64)
     expected = literal(mesh, settings, hold=np.flatnonzero(connect(mesh).is_loose))
     assert lengths(result.vertices - expected).max() < SAME * result.report.mean_edge_length
@@ -55,8 +55,9 @@ def test_matches_the_literal_iteration_with_a_fixed_border(changes, rng):
 
 
 @pytest.mark.parametrize("shrinkage", ["BANDS", "VECTOR", "SCALAR"])
-@pytest.mark.parametrize("rule", ["MEAN", "STRAIGHT"])
-@pytest.mark.parametrize("frame", TRIANGLE_BANKS)
+@pytest.mark.parametrize(
+    ("rule", "frame"), [("MEAN", "BOX_SPLINE_111_CANONICAL"), ("STRAIGHT", "BOX_SPLINE_111")]
+)
 def test_displacement_bound_at_convergence(shrinkage, rule, frame, rng):
     """S = S~ - mu (b1 + b2 + b3) at a fixed point, and b is cut off at lambda / mu.
 

@@ -13,7 +13,18 @@ from framelet.core.frames import BANKS
 from framelet.core.stencils import straight
 from framelet.core.stencils.builder import StencilBuilder
 from framelet.core.surface.connectivity import connect
-from meshes import MESHES, bow_tie, flipped, noisy, pyramid, soup, triangle_grid, triangle_torus, union
+from meshes import (
+    MESHES,
+    bow_tie,
+    faces_of,
+    flipped,
+    noisy,
+    pyramid,
+    soup,
+    triangle_grid,
+    triangle_torus,
+    union,
+)
 from twins import PAIRS, completed_ring, fans, straight_pairs
 
 EXACT = 1e-12
@@ -36,12 +47,17 @@ def points_of(mesh, rule, boundary="FREE"):
     return stencil_of(mesh, rule, boundary).data_matrix(mesh.vertices).transpose(1, 0, 2)
 
 
-def is_regular(mesh, fan, v):
-    faces = [b - a for a, b in zip(mesh.face_offset[:-1], mesh.face_offset[1:], strict=True)]
-    own = {
-        faces[f] for f in range(mesh.n_faces) if v in mesh.corner_vertex[mesh.face_offset[f] :][: faces[f]]
+def regular_vertices(mesh):
+    """Return the vertices with a closed fan of six triangles."""
+    sizes = [set() for _ in range(mesh.n_vertices)]
+    for face in faces_of(mesh):
+        for v in face:
+            sizes[v].add(len(face))
+    return {
+        v
+        for v, fan in enumerate(fans(mesh))
+        if fan is not None and not fan[1] and len(fan[0]) == 6 and sizes[v] == {3}
     }
-    return fan is not None and not fan[1] and len(fan[0]) == 6 and own == {3}
 
 
 def same_pairs(taps, expected):
@@ -62,9 +78,10 @@ def test_mean_rule(name, rng):
     connectivity = connect(mesh)
     stencil = stencil_of(mesh, "MEAN")
     points = stencil.data_matrix(mesh.vertices).transpose(1, 0, 2)
-    for v, fan in enumerate(fans(mesh)):
+    regular_ones = regular_vertices(mesh)
+    for v in range(mesh.n_vertices):
         ring = connectivity.ring_of(v)
-        regular = is_regular(mesh, fan, v)
+        regular = v in regular_ones
         assert stencil.is_irregular[v] == (not regular and not connectivity.is_loose[v])
         if regular:
             expected = mesh.vertices[ring]
@@ -81,9 +98,10 @@ def test_straight_rule(name, rng):
     connectivity = connect(mesh)
     points = points_of(mesh, "STRAIGHT")
     mean = points_of(mesh, "MEAN")
+    regular_ones = regular_vertices(mesh)
     for v, fan in enumerate(fans(mesh)):
         ring = connectivity.ring_of(v).tolist()
-        if is_regular(mesh, fan, v):
+        if v in regular_ones:
             expected = [tuple(mesh.vertices[[ring[k], ring[k + 3]]]) for k in range(3)]
         elif len(ring) >= 3 and fan is not None and connectivity.all_triangles[v] and len(ring) < 5:
             six = completed_ring(mesh.vertices, ring)
