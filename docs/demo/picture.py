@@ -30,7 +30,7 @@ class View(NamedTuple):
     height: int
 
 
-TILE_WIDTH = 320
+TILE_WIDTH = 280
 GAP = 8
 TEXT_HEIGHT = 76
 VIEWS = (
