@@ -92,8 +92,11 @@ class GuidedAverage:
                 around = self._parts[index][0]
                 gathered = normals[:, around.items]
                 gathered *= weights[index]
-                sums = np.add.reduceat(gathered, around.offset[:-1], axis=1)
-                following[:, start:stop] = unit_columns(sums, normals[:, start:stop])
+                following[:, start:stop] = normals[:, start:stop]
+                filled = np.flatnonzero(np.diff(around.offset))  # faces without corners touch nothing
+                if len(filled):
+                    sums = np.add.reduceat(gathered, around.offset[filled], axis=1)
+                    following[:, start + filled] = unit_columns(sums, normals[:, start + filled])
 
             self._blocks.run(average, self._n)
             normals = following

@@ -107,9 +107,8 @@ class _Reweighted:
         threshold = high.dtype.type(self._threshold)
         factor = self._factor[index]
         limit = threshold if factor is None else threshold * factor
-        np.maximum(norm, np.finfo(high.dtype).tiny, out=norm)
+        np.maximum(norm, np.maximum(limit, np.finfo(high.dtype).tiny), out=norm)
         np.divide(limit, norm, out=norm)
-        np.minimum(norm, 1, out=norm)
         cut = high * norm
         self._residual[index] = cut
         high -= cut
@@ -119,7 +118,7 @@ class _Reweighted:
         """Set the factors of a chunk from its differences, and start afresh; a `Visit`."""
         # Coefficients are differences divided by k + 1, and there are k (k + 1) / 2 of them.
         n_slots = (1.0 + np.sqrt(1.0 + 8.0 * high.shape[1])) / 2.0
-        eps = high.dtype.type(self._sharpness)
+        eps = high.dtype.type(max(self._sharpness, float(np.finfo(high.dtype).tiny)))
         self._factor[index] = eps / (_lengths(high) * high.dtype.type(n_slots) + eps)
         self._residual[index] = None
 

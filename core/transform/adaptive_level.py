@@ -186,7 +186,7 @@ def _make_bank(
     family: type[HarmonicBank] | type[PairwiseBank], valence: int, is_ordered: bool
 ) -> HarmonicBank | PairwiseBank:
     """Return the masks of a family for a valence."""
-    return HarmonicBank(valence, is_ordered) if issubclass(family, HarmonicBank) else PairwiseBank(valence)
+    return HarmonicBank(valence, is_ordered) if issubclass(family, HarmonicBank) else family(valence)
 
 
 def _make_chunks(neighbors: Neighbors, family: type[HarmonicBank] | type[PairwiseBank]) -> list[_Chunk]:
