@@ -105,6 +105,8 @@ def find_limit(values: Sequence[NDArray[np.floating]], percentile: float) -> flo
     """
     import numpy as np
 
+    if not 0.0 <= percentile <= 100.0:
+        raise ValueError(f"The percentile is {percentile:g}; it must be from 0 to 100.")
     magnitudes = np.abs(np.concatenate(values))
     return float(np.percentile(magnitudes, percentile)) or float(magnitudes.max())
 

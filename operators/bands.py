@@ -107,7 +107,7 @@ def analyze_object(
         facts = find_facts(surface)
         frame = resolve_frame(frame, facts)
         n_bytes = stored_bytes(frame, stencil, levels, facts)
-        if n_bytes > max_megabytes * 1e6:
+        if not n_bytes <= max_megabytes * 1e6:  # also refuses NaN
             raise ValueError(
                 f"The bands take {megabytes_text(n_bytes)}, more than the {max_megabytes:,g} MB that are "
                 "allowed; use fewer levels or another frame, or allow more."
@@ -123,9 +123,6 @@ def analyze_object(
         band_storage.topology_fingerprint(surface),
         band_storage.position_fingerprint(surface.vertices),
     )
-    mesh = obj.data
-    band_storage.remove_bands(mesh)
-    band_storage.write_note(mesh, note)
     stored = [(REST, "POINT", surface.vertices), (LOW, "POINT", coefficients.low)]
     for level, bands in enumerate(details):
         for place in _places(surface, note, level):
@@ -133,6 +130,10 @@ def analyze_object(
                 values = np.zeros((place.n_elements, 3), np.float32)
                 values[place.elements] = vectors[place.sites]
                 stored.append((band_name(level + 1, band, place.has_suffix), place.domain, values))
+    # Nothing is changed before everything is there.
+    mesh = obj.data
+    band_storage.remove_bands(mesh)
+    band_storage.write_note(mesh, note)
     for name, domain, values in stored:
         band_storage.write_vectors(mesh, name, domain, values)
     mesh.update()
@@ -246,7 +247,7 @@ def find_note_cells(surface: SurfaceMesh, note: BandNote) -> Cells:
     from ..core import BANKS
     from ..core.stencils.cells import find_cells
 
-    with_triangles = BANKS[note.frame].lattice == "ANY"
+    with_triangles = BANKS[note.frame].lattice != "QUADS"
     return find_cells(surface, with_triangles=with_triangles)
 
 

@@ -99,7 +99,7 @@ def resolve_frame(frame: str, facts: MeshFacts) -> str:
 
 def is_on_cells(frame: str, stencil: str) -> bool:
     """Tell whether the finest bands of a frame live on cells."""
-    if stencil == "ADAPTIVE" or not _HAS_BANK.get(frame) or _LATTICES[frame] != "ANY":
+    if stencil == "ADAPTIVE" or not _HAS_BANK.get(frame):
         return False
     from ..core import BANKS
 

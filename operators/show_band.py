@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import bpy
 
@@ -15,6 +16,10 @@ from .filled_reports import fill_band_range
 from .scene_units import length_text
 from .setting_values import as_typed
 from .viewport import show_vertex_colors
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
 
 def color_objects(found: Sequence[BandValues], is_signed: bool, limit: float) -> ColorRange:
@@ -55,17 +60,25 @@ class OBJECT_OT_framelet_show_band(ShowMixin, bpy.types.Operator):
         for name in shown_names(self):
             layout.prop(self, name)
 
+    def _find_limit(self, values: Sequence[NDArray[np.floating]]) -> float:
+        """Return the value of the last color; raise ValueError if it was given as something else."""
+        if self.range_rule == "FIXED":
+            if not 0.0 <= self.limit < float("inf"):
+                raise ValueError(f"The range is {self.limit:g}; it must be a length.")
+            return as_typed(self.limit)
+        return find_limit(values, as_typed(self.percentile) if self.range_rule == "PERCENTILE" else 100.0)
+
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Choose the values of all targets, then color them with one range."""
         choice = BandChoice(self.content, self.level, self.band, self.component)
         done = targets.run_on_targets(self, context, lambda obj, _progress: choose_values(obj, choice))
         if not done:
             return {"CANCELLED"}
-        if self.range_rule == "FIXED":
-            limit = as_typed(self.limit)
-        else:
-            percentile = as_typed(self.percentile) if self.range_rule == "PERCENTILE" else 100.0
-            limit = find_limit([values for _, values in done.values()], percentile)
+        try:
+            limit = self._find_limit([values for _, values in done.values()])
+        except ValueError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
         found = color_objects(list(done.values()), choice.is_signed, limit)
         show_vertex_colors(context)
         shown = context.window_manager.framelet_band_range

@@ -29,7 +29,7 @@ def make_walked_stencil(
     """
     grid = Grid(connectivity, surface.vertices)
     if bank.is_cell_centered and level == 0:
-        cells = find_cells(surface, with_triangles=bank.lattice == "ANY")
+        cells = find_cells(surface, with_triangles=bank.lattice != "QUADS")
         builder = StencilBuilder(surface.n_vertices, bank.offsets, len(cells.corners))
         fill_cells(builder, grid, connectivity, cells, bank)
         return builder.finish()

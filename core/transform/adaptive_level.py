@@ -132,6 +132,11 @@ class AdaptiveLevel:
         return self._n
 
     @property
+    def n_vertices(self) -> int:
+        """Number of vertices, which are the sites."""
+        return self._n
+
+    @property
     def n_high(self) -> int:
         """Number of high bands at the vertex with the most neighbors."""
         return max(chunk.bank.n_bands for chunk in self._chunks) - 1

@@ -55,7 +55,7 @@ class FrameTransform:
 
     def measures(self) -> list[NDArray[np.float64]]:
         """Return the measures at the input of each level and at the end, L + 1 arrays of shape (N,)."""
-        one = np.ones(self.levels[0].n_sites)
+        one = np.ones(self.levels[0].n_vertices)
         return [*(getattr(level, "measure", one) for level in self.levels), one]
 
     def shrink_and_rebuild(self, low: Points, visits: Sequence[Visit]) -> Points:

@@ -65,6 +65,11 @@ class LatticeLevel:
         return self.stencil.n_sites
 
     @property
+    def n_vertices(self) -> int:
+        """Number of vertices."""
+        return self.stencil.n_vertices
+
+    @property
     def n_high(self) -> int:
         """Number of high bands."""
         return len(self._masks) - 1

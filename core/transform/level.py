@@ -37,6 +37,11 @@ class Level(Protocol):
         """Number of sites: vertices or cells."""
         ...
 
+    @property
+    def n_vertices(self) -> int:
+        """Number of vertices."""
+        ...
+
     def group_starts(self, chunk: int) -> NDArray[np.intp] | None:
         """Return where groups of bands begin that vector shrinkage treats as one; None for single bands."""
         ...

@@ -23,6 +23,11 @@ def make_monkey(name: str) -> bpy.types.Object:
     return _linked_object(name, mesh)
 
 
+def copy_object(obj: bpy.types.Object, name: str) -> bpy.types.Object:
+    """Return an object with a copy of a mesh."""
+    return _linked_object(name, obj.data.copy())
+
+
 def copy_with_vertices(obj: bpy.types.Object, name: str, vertices: np.ndarray) -> bpy.types.Object:
     """Return an object with a copy of a mesh and other positions, shape (N, 3)."""
     mesh = obj.data.copy()

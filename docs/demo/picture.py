@@ -15,11 +15,12 @@ from mathutils import Vector
 
 
 class Column(NamedTuple):
-    """What stands in one column of the picture."""
+    """What stands in one column of the picture; `colors` names a color attribute to paint the mesh with."""
 
     obj: bpy.types.Object
     title: str
     caption: str
+    colors: str = ""
 
 
 class View(NamedTuple):
@@ -76,11 +77,10 @@ def render_picture(columns: Sequence[Column], path: Path) -> None:
     with TemporaryDirectory(prefix="framelet-") as folder:
         temporary = Path(folder) / "tile.png"
         _light(scene)
-        clay = _clay()
         for number, column in enumerate(columns):
             left = GAP + number * (TILE_WIDTH + GAP)
             column.obj.data.materials.clear()
-            column.obj.data.materials.append(clay)
+            column.obj.data.materials.append(_clay(column.colors))
             column.obj.data.shade_flat()
             column.obj.hide_render = False
             top = TEXT_HEIGHT
@@ -90,10 +90,17 @@ def render_picture(columns: Sequence[Column], path: Path) -> None:
                 _paste(sheet, tile, left, top)
                 top += view.height + GAP
             column.obj.hide_render = True
-        for obj in [obj for obj in scene.objects if obj.type == "LIGHT"]:
-            bpy.data.objects.remove(obj)
+        _remove(scene, "LIGHT")
         _paste(sheet, _render_captions(scene, columns, temporary, width), 0, 0)
+        _remove(scene, "FONT")
+        _remove(scene, "CAMERA")
     _save(scene, sheet, path)
+
+
+def _remove(scene: bpy.types.Scene, kind: str) -> None:
+    """Remove the objects of a type."""
+    for obj in [obj for obj in scene.objects if obj.type == kind]:
+        bpy.data.objects.remove(obj)
 
 
 def _prepare(scene: bpy.types.Scene) -> None:
@@ -125,8 +132,8 @@ def _light(scene: bpy.types.Scene) -> None:
     scene.collection.objects.link(obj)
 
 
-def _clay() -> bpy.types.Material:
-    """Make the material of all meshes.
+def _clay(colors: str) -> bpy.types.Material:
+    """Make the material of a mesh: gray, or painted with a color attribute.
 
     It glows by how much a face is turned to the fill light. Such a light costs no rays and is free of noise,
     and with a single real one few samples are enough.
@@ -144,6 +151,11 @@ def _clay() -> bpy.types.Material:
     fill = nodes.new("ShaderNodeEmission")
     diffuse = nodes.new("ShaderNodeBsdfDiffuse")
     fill.inputs["Color"].default_value = diffuse.inputs["Color"].default_value = (CLAY, CLAY, CLAY, 1.0)
+    if colors:
+        paint = nodes.new("ShaderNodeVertexColor")
+        paint.layer_name = colors
+        links.new(paint.outputs["Color"], fill.inputs["Color"])
+        links.new(paint.outputs["Color"], diffuse.inputs["Color"])
     both = nodes.new("ShaderNodeAddShader")
     links.new(geometry.outputs["Normal"], facing.inputs[0])
     links.new(facing.outputs["Value"], strength.inputs[0])
@@ -230,10 +242,12 @@ def _paste(sheet: np.ndarray, tile: np.ndarray, left: int, top: int) -> None:
 
 
 def _save(scene: bpy.types.Scene, sheet: np.ndarray, path: Path) -> None:
-    """Write the sheet as a gray picture; 128 grays look like 256 and make a smaller file."""
+    """Write the sheet, in gray if it has no colors; few shades look alike and make a smaller file."""
     height, width = sheet.shape[:2]
+    is_gray = bool((np.ptp(sheet[:, :, :3], axis=2) < 0.02).all())
+    shades = 127 if is_gray else 40
     image = bpy.data.images.new("Sheet", width, height, alpha=False)
-    image.pixels.foreach_set((np.round(sheet[::-1] * 127) / 127).reshape(-1))
-    scene.render.image_settings.color_mode = "BW"
+    image.pixels.foreach_set((np.round(sheet[::-1] * shades) / shades).reshape(-1))
+    scene.render.image_settings.color_mode = "BW" if is_gray else "RGB"
     scene.render.image_settings.compression = 100
     image.save_render(str(path), scene=scene)

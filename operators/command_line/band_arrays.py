@@ -97,7 +97,7 @@ def band_arrays(surface: SurfaceMesh, settings: DenoiseSettings, max_megabytes: 
     for level in range(n_levels):
         arrays[f"L{level + 1}"] = _as_float32(coefficients.details(level))
     if is_on_cells(frame, stencil):
-        cells = find_cells(surface, with_triangles=BANKS[frame].lattice == "ANY")
+        cells = find_cells(surface, with_triangles=BANKS[frame].lattice != "QUADS")
         arrays |= {
             "cell_corners": cells.corners,
             "cell_owner": cells.owner,

@@ -234,3 +234,15 @@ def test_clearing_one_of_two_keeps_the_view(make_object, rng, analyzed):
     analyzed.select_set(True)
     bpy.ops.object.framelet_clear()
     assert space.shading.color_type != "VERTEX" and not shown_range().names
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        ({"percentile": float("nan")}, "The percentile is nan; it must be from 0 to 100"),
+        ({"range_rule": "FIXED", "limit": float("nan")}, "The range is nan; it must be a length"),
+    ],
+)
+def test_ranges_that_are_no_numbers_are_refused(analyzed, options, sentence):
+    with pytest.raises(RuntimeError, match=sentence):
+        bpy.ops.object.framelet_show_band(**options)
