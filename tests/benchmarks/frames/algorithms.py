@@ -19,6 +19,9 @@ SIGMAS_S = (0.0, 0.1, 0.15, 0.25, 0.4)
 largest sigma_c is left out on large meshes, for time."""
 
 LEVELS = (1, 2, 3)
+NORMALS = ("FREE_FORM", "PRISMATIC")
+"""Presets on normals, which the paper does not have."""
+
 MAX_VERTICES = 7_000
 """Up to here every frame is run, on larger meshes only those of `ON_LARGE_MESHES`."""
 
@@ -31,7 +34,7 @@ class Algorithm(NamedTuple):
 
     name: str
     group: str
-    """PRESETS or FRAMES."""
+    """PRESETS, FRAMES or EXTRA."""
     settings: DenoiseSettings
     grid: tuple[dict[str, Any], ...]
 
@@ -49,6 +52,8 @@ def algorithms_for(is_quad: bool, n_vertices: int, is_quick: bool) -> list[Algor
         True leaves out most.
     """
     found = [preset_algorithm(key, n_vertices) for key in preset_keys(is_quad)]
+    if n_vertices <= MAX_VERTICES:
+        found += extra_algorithms(is_quad)
     factors = FRAME_FACTORS[2:3] if is_quick else FRAME_FACTORS
     for frame, stencil in frames_for(is_quad):
         is_main = (frame, stencil) in ON_LARGE_MESHES
@@ -67,6 +72,16 @@ def algorithms_for(is_quad: bool, n_vertices: int, is_quick: bool) -> list[Algor
 def preset_keys(is_quad: bool) -> tuple[str, ...]:
     """Return the presets for triangles or for quads."""
     return ("BILATERAL", "QUAD_1", "QUAD_2") if is_quad else ("BILATERAL", "TRI_1", "TRI_2")
+
+
+def extra_algorithms(is_quad: bool) -> list[Algorithm]:
+    """Return the paper's presets with more levels, and the presets on normals, at their defaults."""
+    found = [
+        Algorithm(f"{key} {levels}", "EXTRA", PRESETS[key].settings.with_changes(levels=levels), ())
+        for key in preset_keys(is_quad)[1:]
+        for levels in LEVELS[1:]
+    ]
+    return found + [Algorithm(key, "EXTRA", PRESETS[key].settings, ()) for key in NORMALS]
 
 
 def preset_algorithm(key: str, n_vertices: int) -> Algorithm:

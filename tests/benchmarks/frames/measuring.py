@@ -107,7 +107,7 @@ def _run(name: str, algorithm: Algorithm, settings: DenoiseSettings, choice: str
 def _row(name, algorithm, settings, choice, measurement, seconds) -> Row:
     """Put together a row."""
     is_frame = settings is not None and settings.method == "POSITIONS"
-    is_bilateral = settings is not None and not is_frame
+    is_bilateral = settings is not None and settings.method == "BILATERAL"
     return Row(
         mesh=name,
         vertices=load(name).clean.n_vertices,

@@ -23,6 +23,7 @@ from records import read_records, write_records
 from tables import (
     Results,
     cost_table,
+    extra_table,
     frame_table,
     full_list,
     level_table,
@@ -108,6 +109,8 @@ def make_sections(rows: list[Row], costs: list[Cost]) -> dict[str, str]:
     sections = {
         "presets on triangles": preset_table(results, is_quad=False),
         "presets on quads": preset_table(results, is_quad=True),
+        "levels of presets on triangles": extra_table(results, is_quad=False),
+        "levels of presets on quads": extra_table(results, is_quad=True),
         "stencils": stencil_table(results),
         "levels": level_table(results),
         "frames on triangles": frame_table(results, is_quad=False),

@@ -5,7 +5,7 @@
 import math
 from collections.abc import Iterable, Sequence
 
-from algorithms import LEVELS
+from algorithms import LEVELS, NORMALS, preset_keys
 from dilation import Cost
 from measuring import Row
 
@@ -59,6 +59,24 @@ def preset_table(results: Results, is_quad: bool) -> str:
             cells += [_cell(row, row.angle == lowest) for row in rows]
         noisy = results.noisy(mesh)
         body.append([_mesh(noisy), f"{noisy.angle:.2f}", *cells])
+    return markdown(head, body)
+
+
+def extra_table(results: Results, is_quad: bool) -> str:
+    """Return angle and rms of the paper's presets by number of levels, and of the presets on normals."""
+    keys = preset_keys(is_quad)[1:]
+    names = [key if levels == 1 else f"{key} {levels}" for key in keys for levels in LEVELS] + list(NORMALS)
+    head = ["Mesh", "Noisy"]
+    head += [f"{key.capitalize().replace('_', '-')}, {_levels(levels)}" for key in keys for levels in LEVELS]
+    head += [key.title().replace("_", "-") for key in NORMALS]
+    body = []
+    for mesh in results.meshes(is_quad):
+        if not results.has(mesh, names[-1]):
+            continue
+        rows = [results.get(mesh, name, "default") for name in names]
+        lowest = min(row.angle for row in rows)
+        noisy = results.noisy(mesh)
+        body.append([_mesh(noisy), f"{noisy.angle:.2f}", *(_cell(row, row.angle == lowest) for row in rows)])
     return markdown(head, body)
 
 
