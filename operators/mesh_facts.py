@@ -127,6 +127,16 @@ def misfit(frame: str, stencil: str, facts: MeshFacts) -> tuple[str, str] | None
     return None
 
 
+def unfit_frames(facts: MeshFacts) -> list[str]:
+    """Say which kinds of frames do not fit a mesh, and why, a line each."""
+    lines = []
+    if not facts.has_quads:
+        lines.append("Not for this mesh: frames for quads")
+    if not facts.has_triangles:
+        lines.append("Not for this mesh: frames for triangles")
+    return lines
+
+
 def count_bands(frame: str, stencil: str, facts: MeshFacts) -> int:
     """Return how many high bands a frame, not AUTO, has at most at each level on a mesh."""
     valence = facts.largest_valence

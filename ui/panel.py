@@ -6,10 +6,11 @@ from __future__ import annotations
 
 import bpy
 
+from ..operators import mesh_facts
 from ..operators.add_noise import OBJECT_OT_framelet_add_noise
 from ..operators.compare import OBJECT_OT_framelet_compare
 from ..operators.denoise import OBJECT_OT_framelet_denoise
-from ..operators.setting_values import copy_settings
+from ..operators.setting_values import copy_settings, has_effect
 from . import band_panels
 from .layouts import FrameletPanel, draw_lengths, draw_settings, draw_value
 
@@ -64,7 +65,12 @@ class VIEW3D_PT_framelet_advanced(FrameletPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the other settings of the method."""
-        draw_settings(self.layout, context.scene.framelet, ADVANCED_NAMES)
+        settings = context.scene.framelet
+        draw_settings(self.layout, settings, ADVANCED_NAMES)
+        facts = mesh_facts.known_facts(context.active_object)
+        if facts and has_effect(settings.method, "frame"):
+            for line in mesh_facts.unfit_frames(facts):
+                self.layout.label(text=line, icon="INFO")
 
 
 class VIEW3D_PT_framelet_last_run(FrameletPanel, bpy.types.Panel):

@@ -267,3 +267,13 @@ def test_drawing_looks_at_a_mesh_once(monkeypatch):
     with pytest.raises(AssertionError, match="looked again"):
         draw(panel.VIEW3D_PT_framelet)
     mesh_facts.forget_facts()
+
+
+def test_advanced_says_which_frames_do_not_fit():
+    bpy.context.scene.framelet.method = "POSITIONS"
+    for shape, kind in (("primitive_ico_sphere_add", "quads"), ("primitive_cube_add", "triangles")):
+        getattr(bpy.ops.mesh, shape)()
+        shown = draw(panel.VIEW3D_PT_framelet_advanced)["icon"]
+        assert shown == [(f"Not for this mesh: frames for {kind}", "INFO")]
+    bpy.context.scene.framelet.method = "NORMALS"
+    assert draw(panel.VIEW3D_PT_framelet_advanced)["icon"] == []
