@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from .equalizer import equalize
     from .frames import BANKS, FilterBank
     from .metrics import Comparison, compare
-    from .noise import add_noise
+    from .noise import NoiseEstimate, add_noise, estimate_noise
     from .settings import DEFAULT_PRESET, PRESETS, DenoiseSettings
     from .stencils import Stencil, make_stencil
     from .surface.connectivity import Connectivity, connect
@@ -34,6 +34,7 @@ _HOMES = {
     "FilterBank": ".frames",
     "FrameCoefficients": ".transform",
     "FrameTransform": ".transform",
+    "NoiseEstimate": ".noise",
     "PRESETS": ".settings",
     "Stencil": ".stencils",
     "SurfaceMesh": ".surface.surface_mesh",
@@ -44,6 +45,7 @@ _HOMES = {
     "connect": ".surface.connectivity",
     "denoise": ".denoising.denoise",
     "equalize": ".equalizer",
+    "estimate_noise": ".noise",
     "make_stencil": ".stencils",
     "make_transform": ".transform",
     "synthesize": ".transform",
@@ -61,6 +63,7 @@ __all__ = [
     "FilterBank",
     "FrameCoefficients",
     "FrameTransform",
+    "NoiseEstimate",
     "Stencil",
     "SurfaceMesh",
     "add_noise",
@@ -70,6 +73,7 @@ __all__ = [
     "connect",
     "denoise",
     "equalize",
+    "estimate_noise",
     "make_stencil",
     "make_transform",
     "synthesize",
