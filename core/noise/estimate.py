@@ -4,8 +4,8 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
-from statistics import NormalDist
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,19 +16,62 @@ from ..surface.connectivity import Connectivity, connect
 from ..surface.normalization import normalize
 from ..surface.surface_mesh import SurfaceMesh
 from .fits import Leftovers, fit_heights
-from .patches import find_patches, spread_sample
+from .local_noise import (
+    TOO_STEEP,
+    LocalNoise,
+    chi_squared_quantile,
+    find_local_noise,
+    kurtosis,
+    pick,
+    scaled_quantile,
+    without_shape,
+)
+from .patches import find_patches, local_adjacency, spread_sample
 
-N_PATCHES = 16_384
+N_PATCHES = 8192
 """Patches that are looked at; on larger meshes they are spread over the surface."""
 
 PATCHES_AT_ONCE = 1024
+"""Patches in a block: their temporaries take about 15 MB."""
+
 LEAST_FREEDOM = 3.0
-QUANTILE = 0.15
+"""Degrees of freedom that a patch needs to say something about noise."""
+
+LARGEST_PART = 1 / 3
+"""Share of the mesh's vertices beyond which a patch is not local: tiny meshes cannot tell noise."""
+
+LEAST_SIGMA = 0.01
+"""Noise in mean edge lengths below which no tails are looked for; what is left there is the shape's."""
+
+HEAVY, HEAVY_IF_SPARSE = 1.2, 1.5
+"""Kurtosis, in units of that of Gaussian noise, from which noise counts as impulsive: where quiet patches
+have noise, the product of theirs and that of all patches; where they have none, that of all patches. Creases
+of clean meshes reach 1.3."""
 
 
 @dataclass(frozen=True)
 class NoiseEstimate:
-    """The noise of a mesh."""
+    """The noise of a mesh as its own surface shows it. All numbers are finite.
+
+    Attributes
+    ----------
+    sigma : float
+        Standard deviation of the displacement's component along the surface normal, in scene units: that of
+        the paper's noise, which moves vertices along their normals, and for noise in all directions that of
+        each coordinate. Components in the surface do not change its shape and are not counted. 0 if the mesh
+        has too few vertices to tell noise from shape. Of impulsive noise, and of noise that differs from
+        place to place, that of the quieter places.
+    sigma_edges : float
+        The same in mean edge lengths of the mesh as it is.
+    sigma_clean_edges : float
+        The same in mean edge lengths before the noise lengthened them, as far as that can be known: as if
+        all edges had one length and the noise were along the normals.
+    is_impulsive : bool
+        Whether some vertices are moved much more than others, and not only where the surface has creases.
+    rms : float
+        Root mean square of the same component over all vertices, in scene units. Equal to `sigma` for
+        Gaussian noise, larger for impulsive noise.
+    """
 
     sigma: float
     sigma_edges: float
@@ -40,53 +83,86 @@ class NoiseEstimate:
 def estimate_noise(
     surface: SurfaceMesh, connectivity: Connectivity | None = None, blocks: Blocks | None = None
 ) -> NoiseEstimate:
-    """Estimate the noise of a mesh."""
+    """Estimate the noise of a mesh from the mesh alone.
+
+    Parameters
+    ----------
+    surface : SurfaceMesh
+        Any polygon mesh; not modified.
+    connectivity : Connectivity, optional
+        Its neighborhoods, if they are known already.
+    blocks : Blocks, optional
+        Threads to work on; results do not depend on their number.
+
+    Returns
+    -------
+    NoiseEstimate
+
+    Raises
+    ------
+    ValueError
+        If the mesh has no faces, no size or positions that are not finite.
+
+    Notes
+    -----
+    A cubic height field is fitted to the two-ring of each vertex, or of `N_PATCHES` vertices spread over a
+    larger mesh (`fits`). Its leftovers have the variance of the noise times known degrees of freedom. Shape
+    that is finer than the fit adds to them, at creases in some patches and elsewhere in all: the first is
+    told apart by the distribution of the local variances (`local_noise`), the second by what the cubic terms
+    take away beyond noise.
+
+    The noise has to be white: independent from vertex to vertex. A mesh whose own detail is that fine has it
+    counted as noise.
+    """
     edge = check_surface(surface)
     blocks = blocks or Blocks(1)
     connectivity = connectivity or connect(surface, blocks)
     positions = normalize(surface, connectivity, edge)
-    leftovers = _all_leftovers(positions, connectivity, blocks)
+    leftovers = _leftovers(positions, surface, connectivity, blocks)
     if leftovers is None:
         return NoiseEstimate(0.0, 0.0, 0.0, False, 0.0)
-    sigma, used = _select(leftovers)
-    return NoiseEstimate(sigma * edge, sigma, sigma, False, sigma * edge)
+    noise = find_local_noise(leftovers)
+    wide = pick(leftovers, noise.is_wide)
+    quiet = pick(wide, wide.variance <= noise.sigma**2 * chi_squared_quantile(wide.freedom, 0.9))
+    sigma = rms = noise.sigma * without_shape(quiet, noise.sigma)
+    is_impulsive = _has_heavy_tails(noise, quiet, wide)
+    if is_impulsive:
+        rms = max(sigma, scaled_quantile(wide, 0.5, 0.5))
+    return NoiseEstimate(sigma * edge, sigma, sigma / _clean_edge(sigma), is_impulsive, rms * edge)
 
 
-def _all_leftovers(
-    positions: NDArray[np.float64], connectivity: Connectivity, blocks: Blocks
+def _leftovers(
+    positions: NDArray[np.float64], surface: SurfaceMesh, connectivity: Connectivity, blocks: Blocks
 ) -> Leftovers | None:
-    centers = spread_sample(positions, np.flatnonzero(~connectivity.is_loose), N_PATCHES)
+    """Return what the fits leave over, or None without a patch that is small in the mesh."""
+    used = np.flatnonzero(~connectivity.is_loose)
+    centers = spread_sample(positions, used, N_PATCHES)
+    adjacency = local_adjacency(surface, connectivity, centers)
 
-    def kernel(degree: int, start: int, stop: int) -> Leftovers:
-        return fit_heights(positions, find_patches(connectivity, centers[start:stop]), degree)
+    def kernel(start: int, stop: int) -> Leftovers:
+        patches = find_patches(adjacency, centers[start:stop])
+        leftovers = fit_heights(positions, patches)
+        is_small = np.diff(patches.offset) <= LARGEST_PART * len(used)
+        return pick(leftovers, is_small & (leftovers.freedom >= LEAST_FREEDOM))
 
-    for degree in (3, 2):
-        parts = blocks.sized(PATCHES_AT_ONCE).run(lambda a, b: kernel(degree, a, b), len(centers))  # noqa: B023
-        leftovers = Leftovers(*(np.concatenate(column) for column in zip(*parts, strict=True)))
-        fits = leftovers.freedom >= LEAST_FREEDOM
-        if fits.any():
-            return Leftovers(*(column[fits] for column in leftovers))
-    return None
-
-
-def _scaled_quantile(leftovers: Leftovers, quantile: float, share: float = 1.0) -> float:
-    """Return sigma by which a quantile of the local estimates is that of white noise."""
-    nu = leftovers.freedom
-    expected = chi_quantile(nu, quantile / share)
-    return float(np.quantile(np.sqrt(leftovers.variance / expected), quantile))
+    parts = blocks.sized(PATCHES_AT_ONCE).run(kernel, len(centers))
+    leftovers = Leftovers(*(np.concatenate(column) for column in zip(*parts, strict=True)))
+    return leftovers if len(leftovers.variance) else None
 
 
-def chi_quantile(freedom: NDArray[np.float64], quantile: float) -> NDArray[np.float64]:
-    """Return a quantile of chi-squared by its degrees of freedom (Wilson and Hilferty's cube)."""
-    spread = 2.0 / (9.0 * freedom)
-    return np.maximum(1.0 - spread + NormalDist().inv_cdf(quantile) * np.sqrt(spread), 1e-3) ** 3
+def _has_heavy_tails(noise: LocalNoise, quiet: Leftovers, wide: Leftovers) -> bool:
+    """Return whether the noise is impulsive."""
+    of_all = kurtosis(wide)
+    if noise.sigma > LEAST_SIGMA and noise.rise < TOO_STEEP:
+        # The kurtosis of few numbers scatters.
+        return of_all * kurtosis(quiet) > HEAVY + 1.0 / math.sqrt(max(len(quiet.variance), 1))
+    return of_all > HEAVY_IF_SPARSE and scaled_quantile(wide, 0.5, 0.5) > LEAST_SIGMA
 
 
-def _select(leftovers: Leftovers) -> tuple[float, NDArray[np.bool_]]:
-    """Return sigma from patches that are wide enough for it."""
-    used = leftovers.extent >= np.median(leftovers.extent)
-    least = np.quantile(leftovers.extent, 0.75)
-    for _ in range(4):
-        sigma = _scaled_quantile(Leftovers(*(c[used] for c in leftovers)), QUANTILE)
-        used = leftovers.extent >= min(1.3 * sigma, least)
-    return sigma, used
+def _clean_edge(sigma: float) -> float:
+    """Return the clean mean edge length, with that of the noisy mesh as unit, for noise along the normals.
+
+    An edge of length e becomes sqrt(e^2 + 2 sigma^2 g^2) with a Gaussian g, whose mean by the quadrature with
+    three nodes is 2 e / 3 + sqrt(e^2 + 6 sigma^2) / 3. That is set to 1 and solved for e.
+    """
+    return max(2.0 - math.sqrt(1.0 + 2.0 * sigma**2), 1.0 / 3.0)  # no noise makes edges much longer than that

@@ -17,12 +17,11 @@ from numpy.typing import NDArray
 from .patches import Patches
 
 _RIDGE = 1e-9
-"""Added to the diagonal of the normal equations, whose entries are numbers of vertices: fits with coefficients
-that the vertices do not determine, as on a line, stay finite."""
+"""Added to the diagonal of the normal equations, relative to it: fits with coefficients that the vertices do
+not determine, as on a line, stay finite."""
 
 _FLAT = 1e-9
 """Extent, relative to the largest, below which a patch is a line."""
-
 
 _N_QUADRIC = 6
 """Coefficients of a polynomial of degree 2, which come first."""
@@ -35,14 +34,18 @@ class Leftovers(NamedTuple):
     """Estimate of the variance of noise along the normal, shape (n,), in squared units of the positions."""
     freedom: NDArray[np.float64]
     """Its degrees of freedom, shape (n,)."""
+    cubic: NDArray[np.float64]
+    """The same from what the cubic terms of the fit take away, shape (n,): shape shows here first."""
+    cubic_freedom: NDArray[np.float64]
+    """Its degrees of freedom, shape (n,)."""
     extent: NDArray[np.float64]
     """Standard deviation of the patch's vertices along its narrower tangent, shape (n,)."""
     studentized: NDArray[np.float64]
     """Leftover of the center by its own standard deviation as the patch estimates it, shape (n,)."""
 
 
-def fit_heights(positions: NDArray[np.float64], patches: Patches, degree: int) -> Leftovers:
-    """Fit a polynomial of the given degree to the heights of each patch over its principal plane.
+def fit_heights(positions: NDArray[np.float64], patches: Patches) -> Leftovers:
+    """Fit a cubic polynomial to the heights of each patch over its principal plane.
 
     Parameters
     ----------
@@ -50,16 +53,15 @@ def fit_heights(positions: NDArray[np.float64], patches: Patches, degree: int) -
         Positions, near the origin.
     patches : Patches
         Vertices of each patch; none is empty.
-    degree : int
-        2 or 3.
     """
     row, begin = patches.row, patches.offset[:-1]
     heights, tangents, extents = _principal_heights(positions, patches)
     inverse = np.divide(1.0, extents, out=np.zeros_like(extents), where=extents > _FLAT * extents[:, 1:])
     u, w = (tangents * inverse[row]).T
-    basis, along_u, along_w = _monomials(u, w, degree)
+    basis, along_u, along_w = _monomials(u, w)
     normal_matrix = np.add.reduceat(basis[:, :, None] * basis[:, None, :], begin)
     diagonal = np.arange(basis.shape[1])
+    normal_matrix[:, diagonal, diagonal] *= 1.0 + _RIDGE
     normal_matrix[:, diagonal, diagonal] += _RIDGE
     inverse_matrix = np.linalg.inv(normal_matrix)
     right = np.add.reduceat(basis * heights[:, None], begin)
@@ -72,36 +74,51 @@ def fit_heights(positions: NDArray[np.float64], patches: Patches, degree: int) -
     center_freedom = np.maximum(freedom_of_point[begin], _FLAT)
     scale = np.sqrt(variance * center_freedom)
     studentized = np.divide(residual[begin], scale, out=np.zeros_like(scale), where=scale > 0)
-    slope = _squared_slopes(
-        normal_matrix, right, (along_u, along_w), inverse, variance, np.maximum(freedom_of_point, 0.0), patches
+    quadric = _Quadric(normal_matrix, right, row)
+    slope = quadric.squared_slopes(
+        (along_u * inverse[row, :1], along_w * inverse[row, 1:]), variance, freedom_of_point, begin
     )
-    variance = variance / (1.0 + slope)
-    return Leftovers(variance, freedom, extents[:, 0], studentized)
+    taken = np.add.reduceat((heights - quadric.values(basis)) ** 2 - residual**2, begin)
+    cubic_freedom = np.add.reduceat(1.0 - quadric.leverage(basis), begin) - freedom
+    cubic = np.maximum(taken, 0.0) / np.maximum(cubic_freedom, 1.0)
+    return Leftovers(
+        variance / (1.0 + slope), freedom, cubic / (1.0 + slope), cubic_freedom, extents[:, 0], studentized
+    )
 
 
-def _squared_slopes(
-    normal_matrix: NDArray[np.float64],
-    right: NDArray[np.float64],
-    derivatives: tuple[NDArray[np.float64], NDArray[np.float64]],
-    inverse: NDArray[np.float64],
-    variance: NDArray[np.float64],
-    weights: NDArray[np.float64],
-    patches: Patches,
-) -> NDArray[np.float64]:
-    """Return the mean squared slope of each patch against its plane, shape (n,), from its fit of degree 2.
+class _Quadric:
+    """The fits of degree 2 that are part of the normal equations of degree 3."""
 
-    What the noise itself adds to the slope is taken off.
-    """
-    row, begin = patches.row, patches.offset[:-1]
-    inverse_matrix = np.linalg.inv(normal_matrix[:, :_N_QUADRIC, :_N_QUADRIC])
-    coefficients = np.einsum("nij,nj->ni", inverse_matrix, right[:, :_N_QUADRIC])
-    total = np.zeros(len(begin))
-    for axis, derivative in enumerate(derivatives):
-        derivative = derivative[:, :_N_QUADRIC] * inverse[row, axis, None]
-        squared = np.einsum("pi,pi->p", derivative, coefficients[row]) ** 2
-        squared -= variance[row] * _quadratic(derivative, inverse_matrix[row])
-        total += np.add.reduceat(weights * squared, begin)
-    return np.maximum(total / np.maximum(np.add.reduceat(weights, begin), _FLAT), 0.0)
+    def __init__(
+        self, normal_matrix: NDArray[np.float64], right: NDArray[np.float64], row: NDArray[np.intp]
+    ) -> None:
+        inverse = np.linalg.inv(normal_matrix[:, :_N_QUADRIC, :_N_QUADRIC])
+        self._row = row
+        self._covariance = inverse[row]
+        self._coefficients = np.einsum("nij,nj->ni", inverse, right[:, :_N_QUADRIC])[row]
+
+    def values(self, basis: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the fitted heights, or for derivatives of the basis the slopes, shape (P,)."""
+        return np.einsum("pi,pi->p", basis[:, :_N_QUADRIC], self._coefficients)
+
+    def leverage(self, basis: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the variance of `values` for noise of variance 1, shape (P,)."""
+        return _quadratic(basis[:, :_N_QUADRIC], self._covariance)
+
+    def squared_slopes(
+        self,
+        derivatives: tuple[NDArray[np.float64], NDArray[np.float64]],
+        variance: NDArray[np.float64],
+        weights: NDArray[np.float64],
+        begin: NDArray[np.int64],
+    ) -> NDArray[np.float64]:
+        """Return the mean squared slope of each patch against its plane, without what noise adds to it."""
+        weights = np.maximum(weights, 0.0)
+        total = np.zeros(len(begin))
+        for derivative in derivatives:
+            squared = self.values(derivative) ** 2 - variance[self._row] * self.leverage(derivative)
+            total += np.add.reduceat(weights * squared, begin)
+        return np.maximum(total / np.maximum(np.add.reduceat(weights, begin), _FLAT), 0.0)
 
 
 def _principal_heights(
@@ -120,16 +137,17 @@ def _principal_heights(
 
 
 def _monomials(
-    u: NDArray[np.float64], w: NDArray[np.float64], degree: int
+    u: NDArray[np.float64], w: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Return all monomials up to a degree and their derivatives along u and w, shape (P, k) each."""
-    powers = [(total - j, j) for total in range(degree + 1) for j in range(total + 1)]
+    """Return all monomials up to the third degree and their derivatives along u and w, shape (P, k) each."""
+    powers = [(total - j, j) for total in range(4) for j in range(total + 1)]
     basis = np.stack([u**i * w**j for i, j in powers], axis=1)
     along_u = np.stack([i * u ** max(i - 1, 0) * w**j for i, j in powers], axis=1)
     along_w = np.stack([j * u**i * w ** max(j - 1, 0) for i, j in powers], axis=1)
     return basis, along_u, along_w
 
 
-def _quadratic(vectors: NDArray[np.float64], matrices: NDArray[np.float64]) -> NDArray[np.float64]:
+def _quadratic(vectors: NDArray[np.float64], matrices: NDArray[np.floating]) -> NDArray[np.float64]:
     """Return v' A v for each vector (P, k) and matrix (P, k, k)."""
-    return np.einsum("pi,pi->p", np.einsum("pij,pj->pi", matrices, vectors), vectors)
+    product: NDArray[np.float64] = np.einsum("pij,pj->pi", matrices, vectors)
+    return np.einsum("pi,pi->p", product, vectors)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Patches: a vertex with the vertices a few edges around it, for many vertices at once."""
+"""Patches: a vertex with the vertices up to two steps around it, for many vertices at once."""
 
 from __future__ import annotations
 
@@ -10,13 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..surface.connectivity import Connectivity
-from ..surface.distance_rings import sorted_unique
-
-ENOUGH = 16
-"""A patch with fewer vertices takes a third ring: on quads, and at borders."""
+from ..surface.distance_rings import LARGEST_CLIQUE, Adjacency, edge_adjacency, sorted_unique
+from ..surface.surface_mesh import SurfaceMesh
 
 MOST_STEPS = 256
-"""A patch does not grow where its next ring would be found over more edges than this."""
+"""A patch does not grow where its next ring would be found over more steps than this."""
 
 
 class Patches(NamedTuple):
@@ -44,48 +42,69 @@ def spread_sample(positions: NDArray[np.float64], candidates: NDArray[np.intp], 
     return candidates[order[(np.arange(n) * len(candidates)) // n]]
 
 
-def find_patches(connectivity: Connectivity, centers: NDArray[np.intp]) -> Patches:
-    """Return each center with its two-ring, or its three-ring where that has fewer than `ENOUGH` vertices.
+def local_adjacency(surface: SurfaceMesh, connectivity: Connectivity, centers: NDArray[np.intp]) -> Adjacency:
+    """Return adjacency by a common face, known at the centers and at what is adjacent to them.
+
+    At other vertices of a mesh with larger faces than triangles the lists are empty, which saves most of the
+    time of `face_adjacency` on large meshes.
+    """
+    if surface.n_corners == 3 * surface.n_faces and bool((surface.face_sizes() == 3).all()):
+        return edge_adjacency(connectivity)
+    near = np.zeros(surface.n_vertices, bool)
+    near[centers] = True
+    size = surface.face_sizes()
+    face = np.repeat(np.arange(surface.n_faces), size)
+    for _ in range(2):
+        touched = np.zeros(surface.n_faces, bool)
+        touched[face[near[surface.corner_vertex]]] = True
+        near[surface.corner_vertex[touched[face]]] = True
+    source = np.repeat(np.arange(surface.n_vertices), connectivity.valence)
+    kept = near[source]
+    keys = [source[kept] * surface.n_vertices + connectivity.ring[kept]]
+    for n_corners in range(4, LARGEST_CLIQUE + 1):
+        faces = np.flatnonzero(touched & (size == n_corners))
+        corners = surface.corner_vertex[surface.face_offset[faces, None] + np.arange(n_corners)]
+        for step in range(2, n_corners - 1):
+            keys.append((corners.astype(np.int64) * surface.n_vertices + np.roll(corners, -step, 1)).ravel())
+    owner, neighbor = np.divmod(sorted_unique(np.concatenate(keys)), max(surface.n_vertices, 1))
+    kept = owner != neighbor
+    count = np.bincount(owner[kept], minlength=surface.n_vertices)
+    return Adjacency(np.concatenate(([0], np.cumsum(count))), neighbor[kept].astype(np.int32))
+
+
+def find_patches(adjacency: Adjacency, centers: NDArray[np.intp]) -> Patches:
+    """Return each center with the vertices that are one or two steps away.
 
     Parameters
     ----------
-    connectivity : Connectivity
-        One-rings.
+    adjacency : Adjacency
+        Who is one step away.
     centers : ndarray, shape (n,), intp
         Vertices in the middle of the patches.
     """
-    n_vertices = connectivity.n_vertices
-    known = front = np.arange(len(centers)) * n_vertices + centers
-    rings = [known]
-    for step in range(3):
-        row = front // n_vertices
-        if step == 2:
-            count = np.bincount(known // n_vertices, minlength=len(centers))
-            front = front[count[row] < ENOUGH]
-        front = _next_ring(connectivity, front, known, len(centers))
-        known = np.concatenate((known, front))
-        known.sort()
-        rings.append(front)
-    keys = np.concatenate(rings)
+    n_vertices = len(adjacency.offset) - 1
+    center = np.arange(len(centers)) * n_vertices + centers
+    first = _next_ring(adjacency, center, center, len(centers))
+    known = np.concatenate((center, first))
+    known.sort()
+    second = _next_ring(adjacency, first, known, len(centers))
+    keys = np.concatenate((center, first, second))
     order = np.argsort(keys // n_vertices, kind="stable")  # the center stays first
     row, vertex = np.divmod(keys[order], n_vertices)
     return Patches(np.searchsorted(row, np.arange(len(centers) + 1)), vertex)
 
 
 def _next_ring(
-    connectivity: Connectivity, front: NDArray[np.int64], known: NDArray[np.int64], n_patches: int
+    adjacency: Adjacency, front: NDArray[np.int64], known: NDArray[np.int64], n_patches: int
 ) -> NDArray[np.int64]:
-    """Return the keys, patch times number of vertices plus vertex, that are one edge beyond the front."""
-    n_vertices = connectivity.n_vertices
+    """Return the keys, patch times number of vertices plus vertex, that are one step beyond the front."""
+    n_vertices = len(adjacency.offset) - 1
     row, vertex = np.divmod(front, n_vertices)
-    steps = np.bincount(row, connectivity.valence[vertex], minlength=n_patches)
-    grows = steps[row] <= MOST_STEPS
-    row, vertex = row[grows], vertex[grows]
-    counts = connectivity.valence[vertex].astype(np.int64)
-    begin = np.repeat(connectivity.ring_offset[vertex] - (np.cumsum(counts) - counts), counts)
-    reached = connectivity.ring[begin + np.arange(len(begin))] + np.repeat(row * n_vertices, counts)
+    counts = adjacency.offset[vertex + 1] - adjacency.offset[vertex]
+    grows = np.bincount(row, counts, minlength=n_patches)[row] <= MOST_STEPS
+    row, vertex, counts = row[grows], vertex[grows], counts[grows]
+    begin = np.repeat(adjacency.offset[vertex] - (np.cumsum(counts) - counts), counts)
+    reached = adjacency.neighbor[begin + np.arange(len(begin))] + np.repeat(row * n_vertices, counts)
     reached = sorted_unique(reached.astype(np.int64))
-    if not len(reached):
-        return reached
     place = np.minimum(np.searchsorted(known, reached), len(known) - 1)
     return reached[known[place] != reached]
