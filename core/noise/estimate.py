@@ -43,10 +43,13 @@ LARGEST_PART = 1 / 3
 LEAST_SIGMA = 0.01
 """Noise in mean edge lengths below which no tails are looked for; what is left there is the shape's."""
 
-HEAVY, HEAVY_IF_SPARSE = 1.2, 1.5
-"""Kurtosis, in units of that of Gaussian noise, from which noise counts as impulsive: where quiet patches
-have noise, the product of theirs and that of all patches; where they have none, that of all patches. Creases
-of clean meshes reach 1.3."""
+HEAVY, SCATTER = 1.22, 1.5
+"""Where quiet patches have noise: product of their kurtosis and that of all patches, in units of that of
+Gaussian noise, from which noise is impulsive, and how much more it takes by the square root of the patches."""
+
+HEAVY_IF_SPARSE = 1.5
+"""Where quiet patches have none: kurtosis of all from which noise is impulsive. Creases of clean meshes reach
+1.3."""
 
 
 @dataclass(frozen=True)
@@ -154,8 +157,7 @@ def _has_heavy_tails(noise: LocalNoise, quiet: Leftovers, wide: Leftovers) -> bo
     """Return whether the noise is impulsive."""
     of_all = kurtosis(wide)
     if noise.sigma > LEAST_SIGMA and noise.rise < TOO_STEEP:
-        # The kurtosis of few numbers scatters.
-        return of_all * kurtosis(quiet) > HEAVY + 1.0 / math.sqrt(max(len(quiet.variance), 1))
+        return of_all * kurtosis(quiet) > HEAVY + SCATTER / math.sqrt(len(wide.variance))
     return of_all > HEAVY_IF_SPARSE and scaled_quantile(wide, 0.5, 0.5) > LEAST_SIGMA
 
 
