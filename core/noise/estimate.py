@@ -45,7 +45,7 @@ LEAST_SIGMA = 0.01
 
 HEAVY, SCATTER = 1.22, 1.5
 """Where quiet patches have noise: product of their kurtosis and that of all patches, in units of that of
-Gaussian noise, from which noise is impulsive, and how much more it takes by the square root of the patches."""
+Gaussian noise, from which noise is impulsive, and how much more it takes by the root of the patches."""
 
 HEAVY_IF_SPARSE = 1.5
 """Where quiet patches have none: kurtosis of all from which noise is impulsive. Creases of clean meshes reach

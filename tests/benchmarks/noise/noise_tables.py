@@ -16,16 +16,17 @@ python3 .ci/environment.py run core -- tests/benchmarks/noise/run.py --update
 
 which needs Python and NumPy only; every number is in `tests/benchmarks/noise/noise.csv`.
 
-Noise is Gaussian, along the normals or with the same standard deviation in each coordinate; levels are in mean
-edge lengths of the clean mesh. Numbers are estimate by truth, both in scene units: the mean over {seeds} draws, and
-behind it the worst draw where that is off by more than 15 %. *Clean* is the estimate on the clean mesh in edge
-lengths: grain, or detail too fine for the mesh. *Impulsive* noise moves half of the vertices by 0.5 edge lengths
-along the normals: the ratio is that of `rms`, and behind it in how many draws `is_impulsive` was true.
+Noise is Gaussian, along the normals or with the same standard deviation in each coordinate; levels are
+in mean edge lengths of the clean mesh. Numbers are estimate by truth, both in scene units: the mean
+over {seeds} draws, and behind it the worst draw where that is off by more than 15 %. *Clean* is the
+estimate on the clean mesh in edge lengths: grain, or detail too fine for the mesh. *Impulsive* noise
+moves half of the vertices by 0.5 edge lengths along the normals: the ratio is that of `rms`, and behind
+it in how many draws `is_impulsive` was true.
 
-Off are the smallest meshes on which most patches touch a crease, `quad/bamboopen1146`, `quad/fandisk766` and
-`mixed/suzanne507`: a few dozen patches without one remain, which scatter, or none. At 0.1 the fine relief of
-`tri/armadillo43k` counts as noise, for it is as fine as the mesh. Strong noise is underestimated by a few percent,
-because a fit to noise turns its plane into it.
+Off are the smallest meshes on which most patches touch a crease, `quad/bamboopen1146`,
+`quad/fandisk766` and `mixed/suzanne507`: a few dozen patches without one remain, which scatter, or
+none. At 0.1 the fine relief of `tri/armadillo43k` counts as noise, for it is as fine as the mesh.
+Strong noise is underestimated by a few percent, because a fit to noise turns its plane into it.
 
 """
 
@@ -60,9 +61,10 @@ def page(rows: list[Row]) -> str:
     recognized = sum(row.is_impulsive for row in impulsive)
     seconds = sum(row.seconds for row in rows) / len(rows)
     summary = (
-        f"Of {len(gaussian)} estimates of Gaussian noise {within} are within 15 % of the truth. Impulsive noise\n"
-        f"was recognized in {recognized} of {len(impulsive)} draws, and seen where there was none in {alarms} of "
-        f"{len(rows) - len(impulsive)}.\nAn estimate took {seconds:.2f} s on average, neighborhoods not counted.\n\n"
+        f"Of {len(gaussian)} estimates of Gaussian noise {within} are within 15 % of the truth.\n"
+        f"Impulsive noise was recognized in {recognized} of {len(impulsive)} draws, and seen where there\n"
+        f"was none in {alarms} of {len(rows) - len(impulsive)}. An estimate took {seconds:.2f} s on average,\n"
+        "neighborhoods not counted.\n\n"
     )
     text = INTRODUCTION.format(seeds=seeds) + summary
     for kind, title in (("normals", "Along the normals"), ("directions", "In all directions")):
