@@ -63,8 +63,8 @@ def page(rows: list[Row]) -> str:
     summary = (
         f"Of {len(gaussian)} estimates of Gaussian noise {within} are within 15 % of the truth.\n"
         f"Impulsive noise was recognized in {recognized} of {len(impulsive)} draws, and seen where there\n"
-        f"was none in {alarms} of {len(rows) - len(impulsive)}. An estimate took {seconds:.2f} s on average,\n"
-        "neighborhoods not counted.\n\n"
+        f"was none in {alarms} of {len(rows) - len(impulsive)}. An estimate took {seconds:.2f} s on\n"
+        "average, neighborhoods not counted.\n\n"
     )
     text = INTRODUCTION.format(seeds=seeds) + summary
     for kind, title in (("normals", "Along the normals"), ("directions", "In all directions")):
