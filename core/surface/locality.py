@@ -132,8 +132,8 @@ def reorder(
     """
     blocks = (blocks or Blocks(1)).sized(_ITEMS_AT_ONCE)
     n_vertices = surface.n_vertices
-    vertex_order = np.asarray(vertex_order, np.int32)
-    new_number = _inverse(vertex_order)
+    old_number = np.asarray(vertex_order, np.int32)
+    new_number = _inverse(old_number)
     corner_vertex = _taken(new_number, surface.corner_vertex, blocks)
     edges = _taken(new_number, surface.edges.reshape(-1), blocks).reshape(-1, 2)
 
@@ -155,13 +155,13 @@ def reorder(
 
     blocks.run(move, surface.n_faces)
     renumbered = SurfaceMesh(
-        vertices=surface.vertices.take(vertex_order, axis=0),
+        vertices=surface.vertices.take(old_number, axis=0),
         corner_vertex=moved_vertex,
         corner_edge=moved_edge,
         face_offset=offset,
         edges=edges.take(edge_order, axis=0),
     )
-    return Reordering(renumbered, vertex_order, face_order)
+    return Reordering(renumbered, old_number, face_order)
 
 
 def _inverse(order: NDArray[np.int32]) -> NDArray[np.int32]:

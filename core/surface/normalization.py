@@ -7,11 +7,14 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..blocks import Blocks
 from .connectivity import Connectivity
 from .surface_mesh import SurfaceMesh
 
 
-def normalize(surface: SurfaceMesh, connectivity: Connectivity, edge: float) -> NDArray[np.float64]:
+def normalize(
+    surface: SurfaceMesh, connectivity: Connectivity, edge: float, blocks: Blocks | None = None
+) -> NDArray[np.float64]:
     """Return positions around the center of the surface, in units of the mean edge length.
 
     Parameters
@@ -22,18 +25,38 @@ def normalize(surface: SurfaceMesh, connectivity: Connectivity, edge: float) -> 
         Its neighborhoods.
     edge : float
         Mean edge length.
+    blocks : Blocks, optional
+        Threads to work on.
 
     Returns
     -------
     ndarray, shape (N, 3), float64
         Loose vertices, which may be anywhere, are put at the center, so that they cost no digits.
     """
-    positions = surface.vertices.astype(np.float64)
+    blocks = blocks or Blocks(1)
+    positions = np.empty((surface.n_vertices, 3))
     used = ~connectivity.is_loose
-    low, high = positions[used].min(axis=0), positions[used].max(axis=0)
+
+    def bounds(start: int, stop: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        rows = surface.vertices[start:stop].T.astype(np.float64, order="C")
+        part = used[start:stop]
+        low = rows.min(axis=1, initial=np.inf, where=part)
+        return low, rows.max(axis=1, initial=-np.inf, where=part)
+
+    found = blocks.run(bounds, surface.n_vertices)
+    low = np.min([part[0] for part in found], axis=0)
+    high = np.max([part[1] for part in found], axis=0)
     center = low + 0.5 * (high - low)
-    positions[~used] = center
-    return (positions - center) / edge
+
+    def move(start: int, stop: int) -> None:
+        part = positions[start:stop]
+        part[:] = surface.vertices[start:stop]
+        part[~used[start:stop]] = center
+        part -= center
+        part /= edge
+
+    blocks.run(move, surface.n_vertices)
+    return positions
 
 
 def displaced(vertices: NDArray[np.floating], displacement: NDArray[np.floating]) -> NDArray[np.floating]:

@@ -149,7 +149,9 @@ class AdaptiveLevel:
         """Return the bands of frequency 1, or all on a border; see `Level`."""
         return self._chunks[chunk].unpenalized
 
-    def forward(self, low: Points, visit: Visit) -> tuple[Points, NDArray[np.floating]]:
+    def forward(
+        self, low: Points, visit: Visit, *, needs_low: bool = True
+    ) -> tuple[Points, NDArray[np.floating]]:
         """Analyze a surface and begin to rebuild it; see `Level`."""
         next_low = np.empty_like(low)
         pending = np.empty((3, len(self._order)), low.dtype)
@@ -173,10 +175,11 @@ class AdaptiveLevel:
             pending[:, chunk.place] = chunk.bank.apply_transposed(coefficients).reshape(3, -1)
         return pending
 
-    def backward(self, next_low: Points, pending: NDArray[np.floating]) -> Points:
+    def backward(self, next_low: Points | None, pending: NDArray[np.floating]) -> Points:
         """Rebuild the surface by the adjoint with respect to the measures; see `Level`."""
         pending = pending.copy()
-        for chunk in self._chunks:
+        for chunk in self._chunks if next_low is not None else ():
+            assert next_low is not None
             weighted = chunk.bank.weights.astype(self._dtype)[:, None] * next_low[:, None, chunk.vertices]
             pending[:, chunk.place] += weighted.reshape(3, -1)
         pending *= self._share
