@@ -12,8 +12,8 @@ from .surface_mesh import SurfaceMesh
 
 
 def coordinate_rows(surface: SurfaceMesh) -> NDArray[np.float64]:
-    """Return the positions with coordinates in rows, shape (3, N), float64."""
-    return np.ascontiguousarray(surface.vertices.T, np.float64)
+    """Return a copy of the positions with coordinates in rows, shape (3, N), float64."""
+    return np.array(surface.vertices.T, np.float64, order="C")
 
 
 def mean_edge_length(surface: SurfaceMesh, blocks: Blocks | None = None) -> float:

@@ -47,6 +47,11 @@ class Reordering:
     vertex_order: NDArray[np.int32]
     face_order: NDArray[np.int32]
 
+    def with_vertices(self, vertices: NDArray[np.floating]) -> Reordering:
+        """Return the same numbers for a mesh with other positions, shape (N, 3), in the original order."""
+        moved = self.surface.with_vertices(vertices.take(self.vertex_order, axis=0))
+        return Reordering(moved, self.vertex_order, self.face_order)
+
     def vertices_back(self, values: NDArray) -> NDArray:
         """Return one value for each vertex, shape (N, ...), in the original order."""
         return _back(values, self.vertex_order)

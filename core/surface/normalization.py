@@ -59,10 +59,41 @@ def normalize(
     return positions
 
 
-def displaced(vertices: NDArray[np.floating], displacement: NDArray[np.floating]) -> NDArray[np.floating]:
-    """Return vertices plus a displacement, both shape (N, 3), in the dtype of the vertices.
+def displaced(
+    vertices: NDArray[np.floating],
+    points: NDArray[np.floating],
+    origin: NDArray[np.floating],
+    edge: float,
+    blocks: Blocks | None = None,
+) -> NDArray[np.floating]:
+    """Return vertices moved as points of normalized space have moved.
 
-    Coordinates that are not displaced keep their bits, the sign of a zero included.
+    Parameters
+    ----------
+    vertices : ndarray, shape (N, 3)
+        Positions in scene units; not modified.
+    points, origin : ndarray, shape (3, N)
+        Where the points are, and where they were, in mean edge lengths.
+    edge : float
+        Mean edge length.
+    blocks : Blocks, optional
+        Threads to work on.
+
+    Returns
+    -------
+    ndarray, shape (N, 3)
+        In the dtype of the vertices. Coordinates that are not displaced keep their bits, the sign of a zero
+        included.
     """
-    moved = (vertices.astype(np.float64) + displacement).astype(vertices.dtype)
-    return np.where(displacement != 0, moved, vertices)
+    result = np.empty_like(vertices)
+
+    def kernel(start: int, stop: int) -> None:
+        part = slice(start, stop)
+        step = points[:, part].astype(np.float64)
+        step -= origin[:, part]
+        step *= edge
+        moved = (vertices[part] + step.T).astype(vertices.dtype)
+        result[part] = np.where(step.T != 0, moved, vertices[part])
+
+    (blocks or Blocks(1)).run(kernel, len(vertices))
+    return result

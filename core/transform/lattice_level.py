@@ -16,7 +16,7 @@ from ..stencils import Stencil
 from .level import Chunk, Points, Visit
 
 TAPS_PER_BLOCK = 2**18
-"""Taps that a block may hold: so many that calls of numpy cost little, and few enough for the cache."""
+"""Taps that a block may hold, so that the arrays of wide masks stay in the cache too."""
 
 
 def _block_size(n_taps: int) -> int:
@@ -58,7 +58,7 @@ class LatticeLevel:
             raise ValueError(f"The stencil has {stencil.n_taps} taps, but {bank.name} has {bank.n_taps}.")
         bands = np.arange(bank.n_bands) if bands is None else bands
         self.stencil = stencil
-        blocks = blocks.sized(_block_size(stencil.n_taps))
+        blocks = blocks.sized(min(blocks.block_size, _block_size(stencil.n_taps)))
         self._blocks = blocks
         self._masks = bank.masks[bands]
         self._product = MaskProduct(self._masks, dtype)
