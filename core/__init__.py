@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .denoising.denoise import denoise
+    from .denoising.preparation_cache import PreparationCache
+    from .denoising.prepared import Prepared, prepare
     from .denoising.report import DenoiseReport, DenoiseResult
     from .equalizer import equalize
     from .frames import BANKS, FilterBank
@@ -35,6 +37,8 @@ _HOMES = {
     "FrameCoefficients": ".transform",
     "FrameTransform": ".transform",
     "PRESETS": ".settings",
+    "PreparationCache": ".denoising.preparation_cache",
+    "Prepared": ".denoising.prepared",
     "Stencil": ".stencils",
     "SurfaceMesh": ".surface.surface_mesh",
     "add_noise": ".noise",
@@ -46,6 +50,7 @@ _HOMES = {
     "equalize": ".equalizer",
     "make_stencil": ".stencils",
     "make_transform": ".transform",
+    "prepare": ".denoising.prepared",
     "synthesize": ".transform",
 }
 
@@ -61,6 +66,8 @@ __all__ = [
     "FilterBank",
     "FrameCoefficients",
     "FrameTransform",
+    "PreparationCache",
+    "Prepared",
     "Stencil",
     "SurfaceMesh",
     "add_noise",
@@ -72,6 +79,7 @@ __all__ = [
     "equalize",
     "make_stencil",
     "make_transform",
+    "prepare",
     "synthesize",
 ]
 

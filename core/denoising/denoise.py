@@ -17,6 +17,7 @@ from ..surface.normalization import displaced
 from ..surface.surface_mesh import SurfaceMesh
 from .bilateral import bilateral_filter
 from .constraints import find_constraints
+from .preparation_cache import PreparationCache
 from .prepared import Prepared, prepare
 from .report import Callback, DenoiseReport, DenoiseResult
 from .split_bregman import split_bregman
@@ -30,7 +31,7 @@ def denoise(
     connectivity: Connectivity | None = None,
     callback: Callback | None = None,
     dtype: DTypeLike = np.float32,
-    prepared: Prepared | None = None,
+    prepared: Prepared | PreparationCache | None = None,
 ) -> DenoiseResult:
     """Clean a noisy surface.
 
@@ -48,9 +49,9 @@ def denoise(
         `callback(fraction, change) -> bool` after each iteration; see `report.Callback`.
     dtype : dtype, optional
         Precision of the solver: float32 for speed, float64 for exactness.
-    prepared : Prepared, optional
-        What `prepare` made for this mesh and the same stencils; runs with other λ, μ and the like need not
-        make it again.
+    prepared : Prepared or PreparationCache, optional
+        What `prepare` made for this mesh and the same stencils, so that runs with other λ, μ and the like
+        need not make it again; or a cache that sees to it.
 
     Returns
     -------
@@ -74,7 +75,9 @@ def denoise(
     if movable is not None:
         _check_movable(movable, surface.n_vertices)
     dtype = np.dtype(dtype)
-    if prepared is None:
+    if isinstance(prepared, PreparationCache):
+        prepared = prepared.prepare(surface, settings, dtype)
+    elif prepared is None:
         prepared = prepare(surface, settings, connectivity=connectivity, dtype=dtype)
     elif not prepared.fits(surface, settings, dtype):
         raise ValueError("This was prepared for another mesh or other stencils; prepare it again.")

@@ -60,14 +60,14 @@ def dilate(
     if far is not None:
         distances |= {int(step) * far_distance for step in steps}
     points = vertices.T.astype(np.float64)
-    offset = members.connectivity.ring_offset
+    offset, labels = members.connectivity.ring_offset, members.connectivity.labels
 
     def kernel(start: int, stop: int) -> None:
         rings = distance_rings(adjacency, start, stop, distances)
         for step in steps:
-            _dilate_once(points, near, offset, start, stop, rings[int(step)])
+            _dilate_once(points, near, offset, start, stop, rings[int(step)], labels)
             if far is not None:
-                _dilate_once(points, far, offset, start, stop, rings[int(step) * far_distance])
+                _dilate_once(points, far, offset, start, stop, rings[int(step) * far_distance], labels)
 
     widest = 8 * max(distances) * 8
     blocks.sized(max(1, CANDIDATES_PER_BLOCK // widest)).run(kernel, members.connectivity.n_vertices)
@@ -81,6 +81,7 @@ def _dilate_once(
     start: int,
     stop: int,
     ring: Ring,
+    labels: NDArray[np.int32] | None,
 ) -> None:
     """Replace the members of vertices start to stop by their dilations on a ring, in place."""
     centers = np.arange(start, stop)
@@ -103,7 +104,7 @@ def _dilate_once(
             first = np.cumsum(counts[holding]) - counts[holding]
             vertex = ring.vertex[np.arange(len(spread)) + (begin[holding] - first)[spread]]
             row = spread
-        members[place] = _straightest(points, centers[holding], members[place], row, vertex, first)
+        members[place] = _straightest(points, centers[holding], members[place], row, vertex, first, labels)
 
 
 def _straightest(
@@ -113,6 +114,7 @@ def _straightest(
     row: NDArray[np.intp],
     candidates: NDArray[np.intp],
     first: NDArray[np.intp],
+    labels: NDArray[np.int32] | None,
 ) -> NDArray[np.intp]:
     """Return, for each center and member, the candidate that goes on straightest.
 
@@ -134,6 +136,8 @@ def _straightest(
     cosine = np.rint(cosine / TIE)
     best = np.maximum.reduceat(cosine, first)
     hit = np.flatnonzero(cosine == best[row])[::-1]  # reversed: the lowest-numbered candidate is written last
+    if labels is not None:
+        hit = hit[np.argsort(-labels[candidates[hit]], kind="stable")]
     chosen = np.empty(len(first), np.intp)
     chosen[row[hit]] = candidates[hit]
     return chosen
