@@ -9,6 +9,7 @@ from time import perf_counter
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
+from ..memory import check_memory
 from ..normals.filter import normal_filter
 from ..settings import DenoiseSettings
 from ..surface.connectivity import Connectivity
@@ -62,7 +63,8 @@ def denoise(
     ------
     ValueError
         In one sentence, if the mesh has no faces, no size or positions that are not finite, if `movable`
-        has the wrong shape or selects nothing, or if `prepared` is for another mesh or other stencils.
+        has the wrong shape or selects nothing, if `prepared` is for another mesh or other stencils, or if the
+        run needs more memory than there is.
 
     Notes
     -----
@@ -75,6 +77,7 @@ def denoise(
     if movable is not None:
         _check_movable(movable, surface.n_vertices)
     dtype = np.dtype(dtype)
+    check_memory(surface.n_vertices, surface.n_corners, settings)
     if isinstance(prepared, PreparationCache):
         prepared = prepared.prepare(surface, settings, dtype)
     elif prepared is None:

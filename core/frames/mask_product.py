@@ -40,11 +40,7 @@ class MaskProduct:
         if self.is_hadamard:
             _hadamard(matrix[:, 0], matrix[:, 1:], coefficients[:, 0], coefficients[:, 1:])
             return coefficients
-        step = max(1, SINGLE_THREAD_LIMIT // self._masks.size)
-        for start in range(0, matrix.shape[2], step):
-            part = slice(start, start + step)
-            np.matmul(self._masks, matrix[:, :, part], out=coefficients[:, :, part])
-        return coefficients
+        return apply_matrix(self._masks, matrix, coefficients)
 
     def high_bands(
         self,
@@ -66,6 +62,19 @@ class MaskProduct:
         bands = np.empty((3, 3, rings.shape[2]), rings.dtype)
         _hadamard(centers, rings, low, bands)
         return bands
+
+
+def apply_matrix(
+    matrix: NDArray[np.floating], data: NDArray[np.floating], out: NDArray[np.floating] | None = None
+) -> NDArray[np.floating]:
+    """Return a matrix (B, T) times data of shape (3, T, n), on the calling thread alone."""
+    if out is None:
+        out = np.empty((3, len(matrix), data.shape[2]), data.dtype)
+    step = max(1, SINGLE_THREAD_LIMIT // max(matrix.size, 1))
+    for start in range(0, data.shape[2], step):
+        part = slice(start, start + step)
+        np.matmul(matrix, data[:, :, part], out=out[:, :, part])
+    return out
 
 
 def _hadamard(

@@ -104,10 +104,19 @@ def spatial_order(vertices: NDArray[np.floating]) -> NDArray[np.int32]:
     for axis, (column, least) in enumerate(zip(coordinates, low, strict=True)):
         cells = ((column.astype(np.float64) - float(least)) * scale).astype(np.uint32)
         keys |= _spread(cells) << np.uint32(axis)
-    # Stable sorts of 16 bits count instead of comparing, so that two of them are faster than one of 32.
+    return stable_order(keys, 2 ** (3 * _CURVE_BITS))
+
+
+def stable_order(keys: NDArray[np.integer], limit: int) -> NDArray[np.int32]:
+    """Return what `argsort(keys, kind="stable")` returns, for numbers from 0 to below `limit`, up to 2^32.
+
+    Stable sorts of 16 bits count instead of comparing, so that two of them are faster than one of 32.
+    """
     order = np.argsort(keys.astype(np.uint16), kind="stable")
-    high = (keys >> np.uint32(16)).astype(np.uint16)
-    return order[np.argsort(high[order], kind="stable")].astype(np.int32)
+    if limit > 2**16:
+        high = (keys >> 16).astype(np.uint16)
+        order = order[np.argsort(high[order], kind="stable")]
+    return order.astype(np.int32)
 
 
 def _spread(cells: NDArray[np.uint32]) -> NDArray[np.uint32]:
