@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .denoising.denoise import denoise
+    from .denoising.preparation_cache import PreparationCache
+    from .denoising.prepared import Prepared, prepare
     from .denoising.report import DenoiseReport, DenoiseResult
     from .equalizer import equalize
     from .frames import BANKS, FilterBank
@@ -36,6 +38,8 @@ _HOMES = {
     "FrameTransform": ".transform",
     "NoiseEstimate": ".noise",
     "PRESETS": ".settings",
+    "PreparationCache": ".denoising.preparation_cache",
+    "Prepared": ".denoising.prepared",
     "Stencil": ".stencils",
     "SurfaceMesh": ".surface.surface_mesh",
     "add_noise": ".noise",
@@ -48,6 +52,7 @@ _HOMES = {
     "estimate_noise": ".noise",
     "make_stencil": ".stencils",
     "make_transform": ".transform",
+    "prepare": ".denoising.prepared",
     "synthesize": ".transform",
 }
 
@@ -64,6 +69,8 @@ __all__ = [
     "FrameCoefficients",
     "FrameTransform",
     "NoiseEstimate",
+    "PreparationCache",
+    "Prepared",
     "Stencil",
     "SurfaceMesh",
     "add_noise",
@@ -76,6 +83,7 @@ __all__ = [
     "estimate_noise",
     "make_stencil",
     "make_transform",
+    "prepare",
     "synthesize",
 ]
 

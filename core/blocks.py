@@ -17,11 +17,13 @@ from typing import TypeVar
 
 Result = TypeVar("Result")
 
-BLOCK_SIZE = 16384
+BLOCK_SIZE = 32768
 
 
 class Blocks:
-    """A pool of threads that runs kernels over index ranges; a context manager.
+    """Threads that run kernels over index ranges; a context manager, which may be entered again.
+
+    Outside of `with`, kernels run on the calling thread.
 
     Parameters
     ----------
@@ -35,6 +37,7 @@ class Blocks:
         self.n_threads = n_threads or available_cores()
         self.block_size = block_size
         self._pool: ThreadPoolExecutor | None = None
+        self._owner = self  # whose threads these are
 
     def __enter__(self) -> Blocks:
         if self.n_threads > 1:
@@ -48,10 +51,15 @@ class Blocks:
             self._pool.shutdown(cancel_futures=True)
             self._pool = None
 
+    def with_threads(self, n_threads: int) -> Blocks:
+        """Set the number of threads for the next time this is entered, and return this object."""
+        self.n_threads = n_threads or available_cores()
+        return self
+
     def sized(self, block_size: int) -> Blocks:
-        """Return the same threads with another block size; valid as long as this object is."""
+        """Return the same threads with another block size; they live and die with this object's."""
         other = Blocks(self.n_threads, block_size)
-        other._pool = self._pool
+        other._owner = self._owner
         return other
 
     def run(self, kernel: Callable[[int, int], Result], n_items: int) -> list[Result]:
@@ -64,9 +72,10 @@ class Blocks:
         """
         starts = range(0, n_items, self.block_size)
         stops = [min(start + self.block_size, n_items) for start in starts]
-        if self._pool is None or len(starts) < 2:
+        pool = self._owner._pool
+        if pool is None or len(starts) < 2:
             return [kernel(start, stop) for start, stop in zip(starts, stops, strict=True)]
-        return list(self._pool.map(kernel, starts, stops))
+        return list(pool.map(kernel, starts, stops))
 
 
 def available_cores() -> int:

@@ -18,15 +18,24 @@ class Choice(NamedTuple):
 
 
 METHODS = (
+    Choice(
+        "AUTO",
+        "Automatic",
+        "Measures the noise, tries several ways of cleaning the directions of the faces, and takes the best",
+    ),
     Choice("POSITIONS", "Positions (paper)", "Split Bregman on vertex positions with a tight wavelet frame"),
     Choice(
         "NORMALS",
-        "Normals",
+        "Normals (keeps features)",
         "Cleans the directions of the faces, then fits the vertices to them; keeps sharp features",
     ),
     Choice(
         "BILATERAL", "Bilateral", "Bilateral mesh filtering (Fleishman et al. 2003), the paper's baseline"
     ),
+)
+TUNINGS = (
+    Choice("GIVEN", "As Set", "The values that are set"),
+    Choice("NOISE", "From Noise", "From the measured noise, for each mesh its own"),
 )
 FRAMES = (
     Choice("AUTO", "Automatic", "Box spline on triangles, linear spline on quads, adaptive on anything else"),

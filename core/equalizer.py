@@ -91,7 +91,7 @@ def equalize(
     constraints.apply(change, np.zeros_like(change))
     if weights is not None:
         change *= weights
-    return displaced(surface.vertices, edge * change.T)
+    return displaced(surface.vertices, change, np.zeros_like(change), edge)
 
 
 def _check(gains: Sequence[float], weights: NDArray[np.floating] | None, n_vertices: int) -> None:

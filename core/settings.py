@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, fields, replace
 from numbers import Integral, Real
 from typing import Any, NamedTuple
 
-from .choices import BOUNDARIES, FRAMES, METHODS, SHRINKAGES, STENCILS, Choice
+from .choices import BOUNDARIES, FRAMES, METHODS, SHRINKAGES, STENCILS, TUNINGS, Choice
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,7 @@ class DenoiseSettings:
     """Parameters of `framelet.core.denoise`.
 
     Lengths (`lambda_`, `sigma_c`, `sigma_s`) are in units of the mean edge length of the mesh, so that the
-    same numbers mean the same on every mesh. The defaults are those of the preset AUTO.
+    same numbers mean the same on every mesh. The defaults are those of the preset POSITIONS.
 
     Raises
     ------
@@ -57,6 +57,20 @@ class DenoiseSettings:
     """
 
     method: str = _setting("POSITIONS", "Method", "How the surface is cleaned", choices=METHODS)
+    strength: float = _setting(
+        1.0,
+        "Strength",
+        "Strength of the noise that is removed, in units of the noise that was measured: larger removes more "
+        "noise and more detail; 1 trusts the measurement, 0 changes nothing",
+        minimum=0.0,
+        maximum=10.0,
+        soft_maximum=2.0,
+        methods=("AUTO",),
+    )
+    tuning: str = _setting(
+        "GIVEN", "Parameters", "Where λ, μ and the number of iterations come from", choices=TUNINGS,
+        methods=("POSITIONS",),
+    )
     frame: str = _setting(
         "AUTO", "Frame", "The filter bank of the wavelet frame", choices=FRAMES, methods=("POSITIONS",)
     )
@@ -264,6 +278,11 @@ class Preset(NamedTuple):
 PRESETS: Mapping[str, Preset] = {
     "AUTO": Preset(
         "Automatic",
+        "Measures the noise and chooses everything else; keeps sharp features",
+        {"method": "AUTO"},
+    ),
+    "POSITIONS": Preset(
+        "Positions",
         "The frame that fits the faces of the mesh, with straight pairs and vector shrinkage",
         {"frame": "AUTO", "stencil": "STRAIGHT", "shrinkage": "VECTOR", "lambda_": 0.25},
     ),

@@ -7,6 +7,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from . import mesh_bridge
+from .preparations import preparations
 
 if TYPE_CHECKING:
     import bpy
@@ -64,7 +65,7 @@ def denoise_and_measure(
     if movable is not None and not movable.any():
         raise ValueError(f"‘{obj.name}’ has no selected vertices; select what should be denoised.")
     try:
-        result = denoise(surface, settings, movable=movable, callback=callback)
+        result = denoise(surface, settings, movable=movable, callback=callback, prepared=preparations())
     except ValueError as error:
         raise ValueError(f"‘{obj.name}’: {error}") from error
     if not result.report.is_stopped:

@@ -21,6 +21,9 @@ from .report import Callback
 
 _Pairs = tuple[NDArray[np.intp], NDArray[np.intp]]
 
+VERTICES_AT_ONCE = 2**14
+"""Vertices whose neighborhoods are found at once: there are many pairs to each."""
+
 
 def bilateral_filter(
     noisy: NDArray[np.floating],
@@ -64,6 +67,7 @@ def bilateral_filter(
     """
     dtype = noisy.dtype.type
     points = noisy.copy()
+    blocks = blocks.sized(min(blocks.block_size, VERTICES_AT_ONCE))
     reach = max(1, ceil(2.0 * settings.sigma_c))
     pairs = blocks.run(lambda start, stop: vertices_within(connectivity, start, stop, reach), noisy.shape[1])
     sigma_s = settings.sigma_s
@@ -126,7 +130,7 @@ def _height_deviation(
     def kernel(start: int, stop: int) -> NDArray[np.float64]:
         squared, height = _offsets(points, normals, *pairs[start // blocks.block_size])
         height = height[squared <= 4.0 * sigma_c**2].astype(np.float64)
-        return np.array([len(height), height.sum(), height @ height])
+        return np.array([len(height), height.sum(), (height * height).sum()])
 
     count, total, squares = np.sum(blocks.run(kernel, points.shape[1]), axis=0)
     return float(np.sqrt(max(squares / count - (total / count) ** 2, 0.0))) if count else 0.0

@@ -36,12 +36,30 @@ class Constraints:
         points[:, self.pinned] = origin[:, self.pinned]
 
 
+@dataclass(frozen=True, eq=False)
+class Corners:
+    """Corners of open borders, `vertices` (r,), and the unit vertex normals there, `normals` (r, 3)."""
+
+    vertices: NDArray[np.intp]
+    normals: NDArray[np.float64]
+
+
+def find_corners(surface: SurfaceMesh, connectivity: Connectivity, boundary: str) -> Corners:
+    """Find the corners of borders that the boundary rule treats apart: with ALONG all, else none."""
+    if boundary != "ALONG" or not connectivity.is_boundary.any():
+        return Corners(np.zeros(0, np.intp), np.zeros((0, 3)))
+    normals = vertex_normals(surface)
+    corners = boundary_corners(surface.vertices, normals, connectivity)
+    return Corners(corners, normals[corners])
+
+
 def find_constraints(
     surface: SurfaceMesh,
     connectivity: Connectivity,
     settings: DenoiseSettings,
     movable: NDArray[np.bool_] | None,
     dtype: np.dtype,
+    corners: Corners | None = None,
 ) -> Constraints:
     """Collect the constraints of a run.
 
@@ -59,6 +77,8 @@ def find_constraints(
         Vertices that may move at all; None for all.
     dtype : dtype
         Precision of the rails.
+    corners : Corners, optional
+        What `find_corners` returns, if it is known already.
 
     Returns
     -------
@@ -69,13 +89,9 @@ def find_constraints(
         is_pinned |= ~movable
     if settings.boundary == "FIXED":
         is_pinned |= connectivity.is_boundary
-    railed = np.zeros(0, np.intp)
-    rail = np.zeros((3, 0), dtype)
-    if settings.boundary == "ALONG" and connectivity.is_boundary.any():
-        normals = vertex_normals(surface)
-        railed = boundary_corners(surface.vertices, normals, connectivity)
-        if settings.method == "POSITIONS" and settings.shrinkage != "VECTOR":
-            is_pinned[railed] = True
-        railed = railed[~is_pinned[railed]]
-        rail = normals[railed].T.astype(dtype)
-    return Constraints(np.flatnonzero(is_pinned), railed, rail)
+    corners = corners or find_corners(surface, connectivity, settings.boundary)
+    if settings.method == "POSITIONS" and settings.shrinkage != "VECTOR":
+        is_pinned[corners.vertices] = True
+    is_free = ~is_pinned[corners.vertices]
+    rail = corners.normals[is_free].T.astype(dtype)
+    return Constraints(np.flatnonzero(is_pinned), corners.vertices[is_free], rail)

@@ -9,19 +9,18 @@ from time import perf_counter
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-from ..blocks import Blocks
+from ..memory import check_memory
 from ..normals.filter import normal_filter
 from ..settings import DenoiseSettings
-from ..surface.checks import check_surface
-from ..surface.connectivity import Connectivity, connect
-from ..surface.geometry import face_area_vectors, signed_volume
-from ..surface.normalization import displaced, normalize
+from ..surface.connectivity import Connectivity
+from ..surface.face_changes import compare_faces
+from ..surface.normalization import displaced
 from ..surface.surface_mesh import SurfaceMesh
-from ..transform import choose_frame, make_transform
 from .bilateral import bilateral_filter
 from .constraints import find_constraints
+from .preparation_cache import PreparationCache
+from .prepared import Prepared, prepare
 from .report import Callback, DenoiseReport, DenoiseResult
-from .shrinkage import SEPARABLE
 from .split_bregman import split_bregman
 
 
@@ -33,6 +32,7 @@ def denoise(
     connectivity: Connectivity | None = None,
     callback: Callback | None = None,
     dtype: DTypeLike = np.float32,
+    prepared: Prepared | PreparationCache | None = None,
 ) -> DenoiseResult:
     """Clean a noisy surface.
 
@@ -50,6 +50,9 @@ def denoise(
         `callback(fraction, change) -> bool` after each iteration; see `report.Callback`.
     dtype : dtype, optional
         Precision of the solver: float32 for speed, float64 for exactness.
+    prepared : Prepared or PreparationCache, optional
+        What `prepare` made for this mesh and the same stencils, so that runs with other λ, μ and the like
+        need not make it again; or a cache that sees to it.
 
     Returns
     -------
@@ -59,8 +62,9 @@ def denoise(
     Raises
     ------
     ValueError
-        In one sentence, if the mesh has no faces, no size or positions that are not finite, or if `movable`
-        has the wrong shape or selects nothing.
+        In one sentence, if the mesh has no faces, no size or positions that are not finite, if `movable`
+        has the wrong shape or selects nothing, if `prepared` is for another mesh or other stencils, or if the
+        run needs more memory than there is.
 
     Notes
     -----
@@ -70,40 +74,35 @@ def denoise(
     """
     began = perf_counter()
     settings = settings or DenoiseSettings()
-    edge = check_surface(surface)
     if movable is not None:
         _check_movable(movable, surface.n_vertices)
     dtype = np.dtype(dtype)
-    with Blocks(settings.threads) as blocks:
-        connectivity = connectivity or connect(surface, blocks)
-        normalized = normalize(surface, connectivity, edge)
-        noisy = np.ascontiguousarray(normalized.T, dtype)
-        constraints = find_constraints(surface, connectivity, settings, movable, dtype)
+    check_memory(surface.n_vertices, surface.n_corners, settings)
+    if isinstance(prepared, PreparationCache):
+        prepared = prepared.prepare(surface, settings, dtype)
+    elif prepared is None:
+        prepared = prepare(surface, settings, connectivity=connectivity, dtype=dtype)
+    elif not prepared.fits(surface, settings, dtype):
+        raise ValueError("This was prepared for another mesh or other stencils; prepare it again.")
+    ordered, noisy, reordering = prepared.ordered, prepared.noisy, prepared.reordering
+    connectivity = prepared.connectivity
+    if movable is not None and reordering is not None:
+        movable = movable[reordering.vertex_order]
+    with prepared.blocks.with_threads(settings.threads) as blocks:
+        constraints = find_constraints(ordered, connectivity, settings, movable, dtype, prepared.corners)
         if settings.method == "BILATERAL":
-            solved = bilateral_filter(noisy, surface, connectivity, settings, constraints, blocks, callback)
+            solved = bilateral_filter(noisy, ordered, connectivity, settings, constraints, blocks, callback)
         elif settings.method == "NORMALS":
-            solved = normal_filter(noisy, surface, connectivity, settings, constraints, blocks, callback)
+            solved = normal_filter(noisy, ordered, connectivity, settings, constraints, blocks, callback)
         elif settings.lambda_ == 0.0:
             solved = noisy, settings.iterations, False  # nothing is shrunk, so nothing moves
         else:
-            # Chosen on the normalized surface in full precision, so that rounding decides nothing.
-            transform = make_transform(
-                surface.with_vertices(normalized),
-                choose_frame(settings.frame, connectivity),
-                settings.stencil,
-                settings.levels,
-                boundary=settings.boundary,
-                connectivity=connectivity,
-                blocks=blocks,
-                dtype=dtype,
-                only_used_bands=settings.shrinkage in SEPARABLE,
-            )
-            solved = split_bregman(noisy, transform, settings, constraints, blocks, callback)
-    points, iterations, is_stopped = solved
-    displacement = (points.astype(np.float64) - noisy).T * edge
-    vertices = displaced(surface.vertices, displacement)
-    report = _report(surface, connectivity, vertices, edge, iterations, is_stopped, began)
-    return DenoiseResult(vertices, report)
+            assert prepared.transform is not None
+            solved = split_bregman(noisy, prepared.transform, settings, constraints, blocks, callback)
+        points, iterations, is_stopped = solved
+        vertices = displaced(ordered.vertices, points, noisy, prepared.edge, blocks)
+        report = _report(prepared, vertices, iterations, is_stopped, began)
+    return DenoiseResult(vertices if reordering is None else reordering.vertices_back(vertices), report)
 
 
 def _check_movable(movable: NDArray[np.bool_], n_vertices: int) -> None:
@@ -118,32 +117,32 @@ def _check_movable(movable: NDArray[np.bool_], n_vertices: int) -> None:
 
 
 def _report(
-    surface: SurfaceMesh,
-    connectivity: Connectivity,
-    vertices: NDArray[np.floating],
-    edge: float,
-    iterations: int,
-    is_stopped: bool,
-    began: float,
+    prepared: Prepared, vertices: NDArray[np.floating], iterations: int, is_stopped: bool, began: float
 ) -> DenoiseReport:
     """Account for a finished run."""
-    result = surface.with_vertices(vertices)
-    moved = np.linalg.norm(vertices.astype(np.float64) - surface.vertices, axis=1)
-    areas_before, areas_after = face_area_vectors(surface), face_area_vectors(result)
+    surface, connectivity, blocks = prepared.ordered, prepared.connectivity, prepared.blocks
+
+    def measure(start: int, stop: int) -> tuple[int, float, float]:
+        moved = vertices[start:stop].astype(np.float64) - surface.vertices[start:stop]
+        moved *= moved
+        squares = moved[:, 0] + moved[:, 1] + moved[:, 2]
+        return int(np.count_nonzero(squares)), float(squares.sum()), float(squares.max())
+
+    n_moved, squares, largest = zip(*blocks.run(measure, surface.n_vertices), strict=True)
+    changes = compare_faces(surface, surface.with_vertices(vertices), blocks)
     volume_change = None
-    if connectivity.is_closed:
-        before = signed_volume(surface, areas_before)
-        volume_change = (signed_volume(result, areas_after) - before) / before if before else None
+    if connectivity.is_closed and changes.volume_before:
+        volume_change = (changes.volume_after - changes.volume_before) / changes.volume_before
     return DenoiseReport(
         n_vertices=surface.n_vertices,
         n_faces=surface.n_faces,
-        n_moved=int((moved > 0).sum()),
+        n_moved=sum(n_moved),
         iterations=iterations,
         is_stopped=is_stopped,
-        mean_edge_length=edge,
-        displacement_rms=float(np.sqrt(np.mean(moved**2))),
-        displacement_max=float(moved.max()),
-        flipped_faces=int((np.einsum("fi,fi->f", areas_before, areas_after) < 0.0).sum()),
+        mean_edge_length=prepared.edge,
+        displacement_rms=float(np.sqrt(sum(squares) / surface.n_vertices)),
+        displacement_max=float(np.sqrt(max(largest))),
+        flipped_faces=changes.n_flipped,
         volume_change=volume_change,
         irregular_vertices=int(connectivity.is_irregular().sum()),
         boundary_vertices=int(connectivity.is_boundary.sum()),

@@ -53,6 +53,8 @@ def clipped(
         raise ValueError(f"The shrinkage is {kind!r}; choose one of {', '.join(SHRINKAGES)}.")
     if not threshold >= 0:
         raise ValueError(f"The threshold is {threshold}; it must not be negative.")
+    if not coefficients.shape[1]:
+        return coefficients.copy()  # a vertex without neighbors has no bands
     nu = coefficients.dtype.type(threshold)
     if kind == "SCALAR":
         return np.clip(coefficients, -nu, nu)

@@ -59,25 +59,31 @@ def split_bregman(
         d <- T(W S + b),  b <- b + W S - d,  c <- c + delta (S - S~)
 
     V rebuilds a surface: by the row v in the paper's transforms, by the true adjoint, as in (4.6), where
-    masks fit the valence. With y = W S + b it holds that d - b = 2 d - y = y - 2 b for the new b, so that
-    only b and S are kept. The low-pass is not shrunk, so its b stays zero. From the start S = S~, d = W S~, b
-    = c = 0 the first S is S~ itself, which is not computed.
+    masks fit the valence. With y = W S + b it holds that d - b = 2 d - y = y - 2 b' for the new b', so that
+    only b and S are kept. As V W S = S, the next S needs V(d - b) = S + V(b - 2 b') only. The low-pass is not
+    shrunk, so its b stays zero. From the start S = S~, d = W S~, b = c = 0 the first S is S~ itself, which is
+    not computed.
     """
     dtype = noisy.dtype.type
     mu, delta, damping = dtype(settings.mu), dtype(settings.delta), dtype(1.0 / (1.0 + settings.mu))
     visits = [_Shrinkage(level, settings) for level in transform.levels]
-    current = noisy.copy()
+    current, moved = noisy.copy(), np.empty_like(noisy)
     drift = np.zeros_like(noisy) if settings.delta > 0 else None  # c
 
     for iteration in range(2, settings.iterations + 1):
-        moved = transform.shrink_and_rebuild(current, visits)
+        change = transform.rebuild_changes(current, visits)
 
         def update(
-            start: int, stop: int, current: NDArray[np.floating] = current, moved: NDArray = moved
+            start: int,
+            stop: int,
+            current: NDArray[np.floating] = current,
+            moved: NDArray[np.floating] = moved,
+            change: NDArray[np.floating] = change,
         ) -> None:
             part = slice(start, stop)
-            block = moved[:, part]
-            block *= mu
+            block = np.add(current[:, part], change[:, part], out=moved[:, part])
+            if mu != 1:
+                block *= mu
             block += noisy[:, part]
             if drift is not None:
                 drift[:, part] += delta * (current[:, part] - noisy[:, part])
@@ -86,17 +92,17 @@ def split_bregman(
 
         blocks.run(update, noisy.shape[1])
         constraints.apply(moved, noisy)
-        change = rms_motion(moved, current, blocks)
-        current = moved
-        if callback is not None and callback((iteration - 1) / (settings.iterations - 1), change):
+        motion = rms_motion(moved, current, blocks)
+        current, moved = moved, current
+        if callback is not None and callback((iteration - 1) / (settings.iterations - 1), motion):
             return current, iteration, True
-        if change < settings.tolerance:
+        if motion < settings.tolerance:
             return current, iteration, False
     return current, settings.iterations, False
 
 
 class _Shrinkage:
-    """Turns the bands W S of one level into y - 2 b, and keeps b."""
+    """Turns the bands W S of one level into b - 2 b', where b' is the new b, and keeps that."""
 
     def __init__(self, level: Level, settings: DenoiseSettings) -> None:
         self._groups = [level.group_starts(index) for index in range(len(level.sites))]
@@ -106,12 +112,13 @@ class _Shrinkage:
         self._kind = settings.shrinkage
 
     def __call__(self, index: int, high: Chunk) -> None:
-        """Shrink the high bands of one chunk, in place; a `Visit`."""
+        """Replace the high bands of one chunk, in place; a `Visit`."""
         residual = self._residual[index]
         if residual is not None:
             high += residual
         cut = clipped(high, self._threshold, self._kind, self._groups[index])
         cut[:, self._unpenalized[index]] = 0
         self._residual[index] = cut
-        high -= cut
-        high -= cut
+        np.multiply(cut, high.dtype.type(-2), out=high)
+        if residual is not None:
+            high += residual

@@ -31,33 +31,70 @@ class MaskProduct:
 
     def __init__(self, masks: ArrayLike, dtype: DTypeLike) -> None:
         masks = np.asarray(masks, np.float64)
-        self._is_hadamard = masks.shape == _HADAMARD.shape and bool((8.0 * masks == _HADAMARD).all())
+        self.is_hadamard = masks.shape == _HADAMARD.shape and bool((8.0 * masks == _HADAMARD).all())
         self._masks = masks.astype(dtype)
 
     def __call__(self, matrix: NDArray[np.floating]) -> NDArray[np.floating]:
         """Return the coefficients, shape (3, B, n), of a data-matrix of shape (3, T, n)."""
         coefficients = np.empty((3, len(self._masks), matrix.shape[2]), matrix.dtype)
-        if self._is_hadamard:
-            _hadamard(matrix, coefficients)
+        if self.is_hadamard:
+            _hadamard(matrix[:, 0], matrix[:, 1:], coefficients[:, 0], coefficients[:, 1:])
             return coefficients
-        step = max(1, SINGLE_THREAD_LIMIT // self._masks.size)
-        for start in range(0, matrix.shape[2], step):
-            part = slice(start, start + step)
-            np.matmul(self._masks, matrix[:, :, part], out=coefficients[:, :, part])
-        return coefficients
+        return apply_matrix(self._masks, matrix, coefficients)
+
+    def high_bands(
+        self,
+        centers: NDArray[np.floating],
+        rings: NDArray[np.floating],
+        low: NDArray[np.floating] | None = None,
+    ) -> NDArray[np.floating]:
+        """Return the high bands of the Hadamard masks, shape (3, 3, n), of points that were not copied.
+
+        Parameters
+        ----------
+        centers : ndarray, shape (3, n)
+            The vertices themselves.
+        rings : ndarray, shape (3, 6, n)
+            The points under the other taps.
+        low : ndarray, shape (3, n), optional
+            Receives the low-pass.
+        """
+        bands = np.empty((3, 3, rings.shape[2]), rings.dtype)
+        _hadamard(centers, rings, low, bands)
+        return bands
 
 
-def _hadamard(matrix: NDArray[np.floating], out: NDArray[np.floating]) -> None:
-    """Butterflies for the masks `_HADAMARD` / 8; one coordinate at a time, which stays in the cache."""
-    for points, bands in zip(matrix, out, strict=True):
-        center = points[0] + points[0]
-        first = points[1] + points[4]
-        second = points[2] + points[5]
-        third = points[3] + points[6]
-        plus, minus = center + first, center - first
-        both, apart = second + third, third - second
-        np.add(plus, both, out=bands[0])
-        np.add(minus, apart, out=bands[1])
-        np.subtract(plus, both, out=bands[2])
-        np.subtract(minus, apart, out=bands[3])
-        bands *= bands.dtype.type(0.125)
+def apply_matrix(
+    matrix: NDArray[np.floating], data: NDArray[np.floating], out: NDArray[np.floating] | None = None
+) -> NDArray[np.floating]:
+    """Return a matrix (B, T) times data of shape (3, T, n), on the calling thread alone."""
+    if out is None:
+        out = np.empty((3, len(matrix), data.shape[2]), data.dtype)
+    step = max(1, SINGLE_THREAD_LIMIT // max(matrix.size, 1))
+    for start in range(0, data.shape[2], step):
+        part = slice(start, start + step)
+        np.matmul(matrix, data[:, :, part], out=out[:, :, part])
+    return out
+
+
+def _hadamard(
+    centers: NDArray[np.floating],
+    rings: NDArray[np.floating],
+    low: NDArray[np.floating] | None,
+    high: NDArray[np.floating],
+) -> None:
+    """Butterflies for the masks `_HADAMARD` / 8."""
+    eighth = high.dtype.type(0.125)
+    pairs = rings[:, :3] + rings[:, 3:]
+    center = centers + centers
+    minus = center - pairs[:, 0]
+    plus = np.add(center, pairs[:, 0], out=center)
+    both = pairs[:, 1] + pairs[:, 2]
+    apart = np.subtract(pairs[:, 2], pairs[:, 1], out=pairs[:, 0])
+    if low is not None:
+        np.add(plus, both, out=low)
+        low *= eighth
+    np.add(minus, apart, out=high[:, 0])
+    np.subtract(plus, both, out=high[:, 1])
+    np.subtract(minus, apart, out=high[:, 2])
+    high *= eighth

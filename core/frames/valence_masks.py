@@ -17,6 +17,8 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
+from .mask_product import apply_matrix
+
 CENTER_WEIGHT = 0.25
 """Low-pass weight of the vertex; its neighbors share the rest. For K = 6 it is the box spline's low-pass."""
 
@@ -98,13 +100,14 @@ class HarmonicBank:
     def apply(self, data: NDArray[np.floating]) -> NDArray[np.floating]:
         """Return M D, shape (3, K + 1, n), of data of the same shape."""
         if self._masks is not None:
-            return np.matmul(self._masks.astype(data.dtype), data)
+            return apply_matrix(self._masks.astype(data.dtype), data)
         return self._reflect(data * self._root.astype(data.dtype)[:, None])
 
     def apply_transposed(self, coefficients: NDArray[np.floating]) -> NDArray[np.floating]:
         """Return M' alpha, shape (3, K + 1, n)."""
         if self._masks is not None:
-            return np.matmul(self._masks.T.astype(coefficients.dtype), coefficients)
+            masks = np.ascontiguousarray(self._masks.T, coefficients.dtype)
+            return apply_matrix(masks, coefficients)
         return self._reflect(coefficients) * self._root.astype(coefficients.dtype)[:, None]
 
     def _reflect(self, data: NDArray[np.floating]) -> NDArray[np.floating]:

@@ -14,11 +14,15 @@ from numpy.typing import NDArray
 
 from ..blocks import Blocks
 from ..surface.distance_rings import Adjacency, Ring, distance_rings
+from ..surface.locality import spatial_order
 from .members import Members
 from .straight import TIE
 
-CANDIDATES_PER_BLOCK = 2**19
+CANDIDATES_PER_BLOCK = 2**18
 """Candidates that a block may hold, so that its arrays stay small however wide the rings are."""
+
+CANDIDATES_AT_ONCE = 2**15
+"""Candidates whose angles are measured at once, in the cache."""
 
 
 def dilate(
@@ -60,17 +64,21 @@ def dilate(
     if far is not None:
         distances |= {int(step) * far_distance for step in steps}
     points = vertices.T.astype(np.float64)
-    offset = members.connectivity.ring_offset
+    offset, order = members.connectivity.ring_offset, _Order(members.connectivity.labels)
+
+    near_by = spatial_order(vertices)  # the search shares its work among centers that lie close together
 
     def kernel(start: int, stop: int) -> None:
-        rings = distance_rings(adjacency, start, stop, distances)
+        centers = near_by[start:stop]
+        rings = distance_rings(adjacency, centers, distances)
         for step in steps:
-            _dilate_once(points, near, offset, start, stop, rings[int(step)])
+            _dilate_once(points, near, offset, centers, rings[int(step)], order)
             if far is not None:
-                _dilate_once(points, far, offset, start, stop, rings[int(step) * far_distance])
+                _dilate_once(points, far, offset, centers, rings[int(step) * far_distance], order)
 
-    widest = 8 * max(distances) * 8
-    blocks.sized(max(1, CANDIDATES_PER_BLOCK // widest)).run(kernel, members.connectivity.n_vertices)
+    blocks.sized(max(1, CANDIDATES_PER_BLOCK // (8 * max(distances)))).run(
+        kernel, members.connectivity.n_vertices
+    )
     return Members(members.connectivity, near, far)
 
 
@@ -78,62 +86,92 @@ def _dilate_once(
     points: NDArray[np.float64],
     members: NDArray[np.int32],
     offset: NDArray[np.int64],
-    start: int,
-    stop: int,
+    centers: NDArray[np.int32],
     ring: Ring,
+    order: _Order,
 ) -> None:
-    """Replace the members of vertices start to stop by their dilations on a ring, in place."""
-    centers = np.arange(start, stop)
-    valence = np.diff(offset[start : stop + 1])
+    """Replace the members of some vertices by their dilations on a ring, in place."""
+    valence = offset[centers + 1] - offset[centers]
     counts = np.bincount(ring.row, minlength=len(centers))
     begin = np.cumsum(counts) - counts
-    for slot in range(int(valence.max(initial=0))):
-        holding = np.flatnonzero(valence > slot)
-        place = offset[start + holding] + slot
-        known = members[place] >= 0
-        members[place[known & (counts[holding] == 0)]] = -1
-        chosen = known & (counts[holding] > 0)
-        holding, place = holding[chosen], place[chosen]
-        if not len(holding):
-            continue
-        if len(holding) == len(centers):
-            row, vertex, first = ring.row, ring.vertex, begin
-        else:
-            spread = np.repeat(np.arange(len(holding)), counts[holding])
-            first = np.cumsum(counts[holding]) - counts[holding]
-            vertex = ring.vertex[np.arange(len(spread)) + (begin[holding] - first)[spread]]
-            row = spread
-        members[place] = _straightest(points, centers[holding], members[place], row, vertex, first)
+    # Vertices with as many members, and candidates up to a multiple of four, go together.
+    width = -(-counts // 4) * 4
+    kind = valence * (int(width.max(initial=0)) + 1) + width
+    for value in np.unique(kind[valence > 0]):
+        group = np.flatnonzero(kind == value)
+        n_members, n_candidates = int(valence[group[0]]), int(width[group[0]])
+        step = max(1, CANDIDATES_AT_ONCE // max(n_candidates, 1))
+        for part in np.split(group, range(step, len(group), step)):
+            place = offset[centers[part]] + np.arange(n_members)[:, None]
+            old = members[place]
+            if not n_candidates:
+                members[place] = -1
+                continue
+            # Rows that are too short repeat their last candidate, which changes nothing.
+            column = np.minimum(np.arange(n_candidates)[:, None], counts[part] - 1)
+            candidates = ring.vertex[begin[part] + column]
+            chosen = _straightest(points, centers[part], old, candidates, order)
+            members[place] = np.where(old >= 0, chosen, -1)
 
 
 def _straightest(
     points: NDArray[np.float64],
-    centers: NDArray[np.intp],
+    centers: NDArray[np.int32],
     members: NDArray[np.int32],
-    row: NDArray[np.intp],
     candidates: NDArray[np.intp],
-    first: NDArray[np.intp],
-) -> NDArray[np.intp]:
-    """Return, for each center and member, the candidate that goes on straightest.
+    order: _Order,
+) -> NDArray[np.integer]:
+    """Return, for members (m, n) of centers (n,), the candidates (c, n) that go on straightest, (m, n)."""
+    pivots = points.take(members, axis=1, mode="clip")
+    spokes = pivots - points.take(centers, axis=1)[:, None]
+    length = np.sqrt((spokes * spokes).sum(axis=0))
+    spokes /= np.where(length > 0, length, 1.0)
+    targets = points.take(candidates, axis=1)
+    last = order.codes_of(candidates)
+    best = np.empty(members.shape, np.int64)
+    for one in range(len(members)):
+        leap = targets - pivots[:, one, None]
+        along = leap * spokes[:, one, None]
+        cosine = np.add(along[0], along[1], out=along[0])
+        cosine += along[2]
+        leap *= leap
+        squares = np.add(leap[0], leap[1], out=leap[0])
+        squares += leap[2]
+        np.sqrt(squares, out=squares)
+        if not squares.all():
+            squares[squares == 0.0] = 1.0
+        cosine /= squares
+        cosine *= 1.0 / TIE
+        np.rint(cosine, out=cosine)
+        # One number for both: whole steps of the cosine, then which candidate comes first.
+        cosine *= _CODES
+        cosine += last
+        best[one] = cosine.max(axis=0)
+    return order.decode(best)
 
-    `row` (c,) says which center a candidate belongs to; `first` (n,) is where each center's candidates begin.
+
+_CODES = 2**31
+
+
+class _Order:
+    """Codes by which the lowest-numbered of several candidates wins a maximum.
+
+    They are below 2^31, and cosines have 2^21 steps: together they are exact in double precision.
     """
-    pivot = points[:, members]
-    spoke = pivot - points[:, centers]
-    length = np.sqrt((spoke * spoke).sum(axis=0))
-    spoke /= np.where(length > 0, length, 1.0)
-    cosine = np.zeros(len(row))
-    squares = np.zeros(len(row))
-    for coordinate, at, along in zip(points, pivot, spoke, strict=True):
-        leap = coordinate[candidates] - at[row]
-        squares += leap * leap
-        leap *= along[row]
-        cosine += leap
-    np.sqrt(squares, out=squares)
-    cosine /= np.where(squares > 0, squares, 1.0)
-    cosine = np.rint(cosine / TIE)
-    best = np.maximum.reduceat(cosine, first)
-    hit = np.flatnonzero(cosine == best[row])[::-1]  # reversed: the lowest-numbered candidate is written last
-    chosen = np.empty(len(first), np.intp)
-    chosen[row[hit]] = candidates[hit]
-    return chosen
+
+    def __init__(self, labels: NDArray[np.int32] | None) -> None:
+        self._labels = labels
+        self._vertex_of: NDArray[np.int32] | None = None
+        if labels is not None:
+            self._vertex_of = np.empty(int(labels.max(initial=-1)) + 1, np.int32)
+            self._vertex_of[labels] = np.arange(len(labels), dtype=np.int32)
+
+    def codes_of(self, vertices: NDArray[np.intp]) -> NDArray[np.float64]:
+        """Return the codes of vertices, larger for lower numbers."""
+        numbers = vertices if self._labels is None else self._labels[vertices]
+        return np.subtract(_CODES - 1, numbers, dtype=np.float64)
+
+    def decode(self, best: NDArray[np.int64]) -> NDArray[np.integer]:
+        """Return the vertices from codes, whatever stands before the code."""
+        numbers = (_CODES - 1) - (best & (_CODES - 1))
+        return numbers if self._vertex_of is None else self._vertex_of[numbers]

@@ -108,6 +108,7 @@ def _fill_straight(
     is_served = connectivity.all_quads[wanted] & ~connectivity.is_non_manifold[wanted]
     is_served &= ~connectivity.is_boundary[wanted]
     is_served &= (valence == 3) | ((valence >= 5) & (valence <= HIGHEST_VALENCE // 2))
+    coordinates = np.ascontiguousarray(vertices.T, np.float64)
     for value in np.unique(valence[is_served]):
         group = wanted[is_served & (valence == value)]
         if value == 3:
@@ -118,7 +119,7 @@ def _fill_straight(
         def kernel(start: int, stop: int, group: NDArray[np.intp] = group, value: int = int(value)) -> None:
             part = group[start:stop]
             ring = _rim(members, part, value)
-            positions = pair_positions(vertices, part, ring, 4)
+            positions = pair_positions(coordinates, part, ring, 4)
             kept = np.sort(np.stack([place for pair in positions for place in pair]), axis=0)
             _set_alternating(builder, vertices, part, np.take_along_axis(ring, kept, axis=0))
 

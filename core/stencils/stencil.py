@@ -80,13 +80,11 @@ class Stencil:
             part = slice(offset[start], offset[stop])
             members = points.take(self.virtual_vertex[part], axis=1, mode="clip")
             members *= weight[part]
-            begin = self.n_vertices
-            np.add.reduceat(
-                members,
-                offset[start:stop] - offset[start],
-                axis=1,
-                out=points[:, begin + start : begin + stop],
-            )
+            virtual = points[:, self.n_vertices + start : self.n_vertices + stop]
+            if members.shape[1] == 2 * (stop - start) and (np.diff(offset[start : stop + 1]) == 2).all():
+                np.add(members[:, 0::2], members[:, 1::2], out=virtual)  # midpoints and mirror images
+            else:
+                np.add.reduceat(members, offset[start:stop] - offset[start], axis=1, out=virtual)
 
         blocks.run(kernel, len(offset) - 1)
 
@@ -103,8 +101,12 @@ class Stencil:
             return points.take(self.slots[:, start:stop], axis=1, mode="clip")
         matrix = np.empty((3, self.n_taps, stop - start), points.dtype)
         matrix[:, 0] = points[:, start:stop]  # tap 0 needs no look-up
-        matrix[:, 1:] = points.take(self.slots[1:, start:stop], axis=1, mode="clip")
+        matrix[:, 1:] = self.gather_rings(points, start, stop)
         return matrix
+
+    def gather_rings(self, points: NDArray[np.floating], start: int, stop: int) -> NDArray[np.floating]:
+        """Return the points under all taps but the first, shape (3, T - 1, stop - start)."""
+        return points.take(self.slots[1:, start:stop], axis=1, mode="clip")
 
     def data_matrix(self, vertices: NDArray[np.floating]) -> NDArray[np.floating]:
         """Return the whole data-matrix D = C(S) of section 3.1, shape (T, n_sites, 3)."""

@@ -25,6 +25,12 @@ Rounding then does not decide on symmetric meshes, so that rotating one does not
 angles the pair with the shorter spokes wins, of equal spokes the first in ring order."""
 
 
+WIDEST_CODE = 32
+"""Rings up to this size have few enough pairs to choose them by arithmetic instead of by search."""
+
+_CODES = 2**12
+
+
 def fill_straight(
     builder: StencilBuilder,
     vertices: NDArray[np.floating],
@@ -67,6 +73,7 @@ def fill_straight(
     is_completable = has_ring_edges & (valence >= 3) & (valence < 5)
     is_pairable = (valence >= 4) & (valence <= HIGHEST_VALENCE) & ~is_completable
     fill_mean(builder, members.near, connectivity, wanted[is_pairable & (valence == 4)], places)  # third pair
+    rows = np.ascontiguousarray(vertices.T, np.float64)
     for value in np.unique(valence[is_pairable]):
         group = wanted[is_pairable & (valence == value)]
         # Keep the table of pairs of one block in the cache.
@@ -74,7 +81,7 @@ def fill_straight(
 
         def kernel(start: int, stop: int, group: NDArray[np.intp] = group, value: int = int(value)) -> None:
             part = group[start:stop]
-            pairs = straight_pairs(vertices, part, members.near_rows(part, value), min(value // 2, 3))
+            pairs = straight_pairs(rows, part, members.near_rows(part, value), min(value // 2, 3))
             n_pairs = len(pairs) // 2
             for pair in range(n_pairs):
                 builder.set(places[pair], part, pairs[pair])
@@ -91,14 +98,14 @@ def fill_straight(
 
 
 def straight_pairs(
-    vertices: NDArray[np.floating], centers: NDArray[np.intp], rings: NDArray[np.int32], n_pairs: int
+    points: NDArray[np.float64], centers: NDArray[np.intp], rings: NDArray[np.int32], n_pairs: int
 ) -> NDArray[np.int32]:
     """Choose pairs of ring vertices greedily by largest angle at the center, each ring vertex once.
 
     Parameters
     ----------
-    vertices : ndarray, shape (N, 3)
-        Positions.
+    points : ndarray, shape (3, N), float64
+        Positions, coordinates in rows.
     centers : ndarray, shape (n,), intp
         Center vertices.
     rings : ndarray, shape (K, n), int32
@@ -115,56 +122,84 @@ def straight_pairs(
     -----
     In a ring of five the vertex left over is paired once more with the used one that makes the largest angle.
     """
-    chosen = pair_positions(vertices, centers, rings, n_pairs)
+    chosen = pair_positions(points, centers, rings, n_pairs)
     columns = np.arange(rings.shape[1])
     return np.stack([rings[a, columns] for a, _ in chosen] + [rings[b, columns] for _, b in chosen])
 
 
 def pair_positions(
-    vertices: NDArray[np.floating], centers: NDArray[np.intp], rings: NDArray[np.int32], n_pairs: int
+    points: NDArray[np.float64], centers: NDArray[np.intp], rings: NDArray[np.int32], n_pairs: int
 ) -> list[tuple[NDArray[np.intp], NDArray[np.intp]]]:
     """Return the ring positions of the pairs of `straight_pairs`, each (n,)."""
-    valence, n = rings.shape
+    valence = len(rings)
     first, second = np.triu_indices(valence, 1)
-    cosine = _pair_ranks(vertices, centers, rings, first, second)
-    remaining = cosine.copy()
+    ranks = _pair_ranks(points, centers, rings)
+    if valence > WIDEST_CODE:
+        return _choose_by_search(ranks, n_pairs, first, second)
+    # The number of a pair in the last bits, so that the least value tells which pair it is.
+    ranks *= _CODES / TIE
+    ranks += np.arange(len(ranks))[:, None]
+    ends = ((1 << first) | (1 << second)).astype(np.uint32)[:, None]
     chosen = []
-    left = np.full(n, 10)  # the positions 0 to 4 of a ring of five sum to 10
+    used = np.zeros(rings.shape[1], np.uint32)
+    free = ranks
     for _ in range(n_pairs):
-        best = remaining.argmin(axis=0)
-        a, b = first[best], second[best]
-        chosen.append((a, b))
-        left -= a + b
-        used = (first[:, None] == a) | (first[:, None] == b) | (second[:, None] == a) | (second[:, None] == b)
-        remaining[used] = np.inf
+        best = free.min(axis=0).astype(np.int64) & (_CODES - 1)
+        chosen.append((first[best], second[best]))
+        used |= ends[best, 0]
+        if len(chosen) < n_pairs:
+            free = np.where(ends & used, np.inf, ranks)
     if valence == 5:
-        cosine[(first[:, None] != left) & (second[:, None] != left)] = np.inf
-        best = cosine.argmin(axis=0)
+        free = np.where(ends & ~used, ranks, np.inf)  # four are used: pairs with the one left over
+        best = free.min(axis=0).astype(np.int64) & (_CODES - 1)
         chosen.append((first[best], second[best]))
     return chosen
 
 
+def _choose_by_search(
+    ranks: NDArray[np.float64], n_pairs: int, first: NDArray[np.intp], second: NDArray[np.intp]
+) -> list[tuple[NDArray[np.intp], NDArray[np.intp]]]:
+    """Return the ring positions of the pairs of lowest rank, each position once, on rings of any size."""
+    chosen = []
+    for _ in range(n_pairs):
+        best = ranks.argmin(axis=0)
+        a, b = first[best], second[best]
+        chosen.append((a, b))
+        used = (first[:, None] == a) | (first[:, None] == b) | (second[:, None] == a) | (second[:, None] == b)
+        ranks[used] = np.inf
+    return chosen
+
+
 def _pair_ranks(
-    vertices: NDArray[np.floating],
-    centers: NDArray[np.intp],
-    rings: NDArray[np.int32],
-    first: NDArray[np.intp],
-    second: NDArray[np.intp],
+    points: NDArray[np.float64], centers: NDArray[np.intp], rings: NDArray[np.int32]
 ) -> NDArray[np.float64]:
-    """Rank pairs of spokes by the cosine of their angle, then by their length, shape (pairs, n).
+    """Rank all pairs of spokes by the cosine of their angle, then by their length, shape (pairs, n).
 
     The cosine is in whole steps of `TIE`; the length takes what is behind the point.
     """
-    center = vertices[centers].T.astype(np.float64)
-    spokes = vertices[rings].transpose(2, 0, 1) - center[:, None]
+    spokes = points.take(rings, axis=1, mode="clip")
+    spokes -= points.take(centers, axis=1)[:, None]
     length = np.sqrt(spokes[0] ** 2 + spokes[1] ** 2 + spokes[2] ** 2)
     spokes /= np.where(length > 0, length, 1.0)
-    cosine = spokes[0, first] * spokes[0, second]
-    cosine += spokes[1, first] * spokes[1, second]
-    cosine += spokes[2, first] * spokes[2, second]
     reach = length.max(axis=0)
-    reach = (length[first] + length[second]) / np.where(reach > 0, 4.0 * reach, 1.0)
-    return np.rint(cosine / TIE) + np.rint(reach / TIE) * TIE
+    reach = 1.0 / np.where(reach > 0, 4.0 * TIE * reach, 1.0)
+    length *= reach
+    valence, n = rings.shape
+    ranks = np.empty((valence * (valence - 1) // 2, n))
+    begin = 0
+    for one in range(valence - 1):
+        part = ranks[begin : begin + valence - 1 - one]
+        begin += len(part)
+        products = spokes[:, one, None] * spokes[:, one + 1 :]
+        np.add(products[0], products[1], out=part)
+        part += products[2]
+        part *= 1.0 / TIE
+        np.rint(part, out=part)
+        lengths = np.add(length[one], length[one + 1 :], out=products[0])
+        np.rint(lengths, out=lengths)
+        lengths *= TIE
+        part += lengths
+    return ranks
 
 
 def complete_rings(
@@ -189,8 +224,8 @@ def complete_rings(
         The points in ring order.
     """
     valence, n = rings.shape
-    points = vertices[rings].astype(np.float64)
-    lengths = np.linalg.norm(np.roll(points, -1, axis=0) - points, axis=2)
+    corners = vertices[rings].astype(np.float64)
+    lengths = np.linalg.norm(np.roll(corners, -1, axis=0) - corners, axis=2)
     longest = lengths.max(axis=0)
     lengths = np.rint(lengths / np.where(longest > 0, longest, 1.0) / TIE)
     chosen = np.sort(np.argsort(-lengths, axis=0, kind="stable")[: size - valence], axis=0)

@@ -6,12 +6,15 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..blocks import Blocks
 from .geometry import mean_edge_length
 from .surface_mesh import SurfaceMesh
 
 
-def check_surface(surface: SurfaceMesh) -> float:
+def check_surface(surface: SurfaceMesh, blocks: Blocks | None = None) -> float:
     """Check that a mesh can be worked on, and return its mean edge length in scene units.
+
+    `blocks` are threads to work on.
 
     Raises
     ------
@@ -24,16 +27,16 @@ def check_surface(surface: SurfaceMesh) -> float:
         raise ValueError(
             f"The mesh has {surface.n_vertices} vertices but no faces; only surfaces can be cleaned."
         )
-    is_finite = np.isfinite(surface.vertices).all(axis=1)
+    is_finite = np.isfinite(surface.vertices)
     if not is_finite.all():
-        wrong = np.flatnonzero(~is_finite)
+        wrong = np.flatnonzero(~is_finite.all(axis=1))
         position = ", ".join(f"{value:g}" for value in surface.vertices[wrong[0]])
         count = (
             "is not a finite point" if len(wrong) == 1 else f"and {len(wrong) - 1} more are not finite points"
         )
         raise ValueError(f"Vertex {wrong[0]} at ({position}) {count}; delete or move it first.")
     with np.errstate(over="ignore"):  # said in a sentence below
-        edge = mean_edge_length(surface)
+        edge = mean_edge_length(surface, blocks)
     if not edge > 0.0:
         raise ValueError("All faces have shrunk to points; the mesh has no size to measure noise by.")
     if not np.isfinite(edge):

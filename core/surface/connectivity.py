@@ -5,14 +5,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
-from .half_edges import HalfEdges, find_half_edges
-from .rings import Walks, walk
+from .half_edges import find_half_edges
+from .ring_filling import Rings, fill_rings
 from .surface_mesh import SurfaceMesh
 
 
@@ -51,6 +50,8 @@ class Connectivity:
         Whether no two faces disagree about the direction of a common edge.
     has_quads, has_triangle_pairs : bool
         Whether there is a quad, and whether two triangles share an edge.
+    labels : ndarray, shape (N,), int32, or None
+        Numbers that tell equals apart in place of the vertices' own; "lowest-numbered" goes by them.
     """
 
     ring_offset: NDArray[np.int64]
@@ -68,6 +69,7 @@ class Connectivity:
     is_oriented: bool
     has_quads: bool
     has_triangle_pairs: bool
+    labels: NDArray[np.int32] | None = None
 
     @property
     def n_vertices(self) -> int:
@@ -107,7 +109,9 @@ class Connectivity:
         return self.ring[self.ring_offset[vertex] : self.ring_offset[vertex + 1]]
 
 
-def connect(surface: SurfaceMesh, blocks: Blocks | None = None) -> Connectivity:
+def connect(
+    surface: SurfaceMesh, blocks: Blocks | None = None, labels: NDArray[np.int32] | None = None
+) -> Connectivity:
     """Find the neighborhoods of a mesh.
 
     Parameters
@@ -116,70 +120,95 @@ def connect(surface: SurfaceMesh, blocks: Blocks | None = None) -> Connectivity:
         Any polygon mesh; not modified. Positions are not looked at.
     blocks : Blocks, optional
         Threads to work on.
+    labels : ndarray, shape (N,), int32, optional
+        Different numbers of the vertices by which equals are told apart, instead of their own numbers: those
+        of a mesh before it was renumbered.
 
     Returns
     -------
     Connectivity
     """
     blocks = blocks or Blocks(1)
-    half_edges = find_half_edges(surface)
+    half_edges = find_half_edges(surface, blocks)
     n_vertices = surface.n_vertices
     corner_vertex = surface.corner_vertex
     count = half_edges.edge_face_count
     edges = surface.edges
-    is_loop = edges[:, 0] == edges[:, 1]
-    used = (count > 0) & ~is_loop
-    valence = np.bincount(edges[used].ravel(), minlength=n_vertices).astype(np.int32)
     n_corners = np.bincount(corner_vertex, minlength=n_vertices)
+    is_loop = edges[:, 0] == edges[:, 1]
+    valence = _valences(edges, count, is_loop, n_corners)
 
     is_boundary = _marked(n_vertices, edges[count == 1])
     broken = _marked(n_vertices, edges[(count > 2) | (is_loop & (count > 0))])
     is_twisted = _marked(n_vertices, corner_vertex[half_edges.is_twisted])
-    is_twisted |= _marked(n_vertices, corner_vertex[half_edges.next_corner[half_edges.is_twisted]])
+    is_twisted |= _marked(n_vertices, half_edges.target[half_edges.is_twisted])
 
     ring_offset = np.concatenate(([0], np.cumsum(valence, dtype=np.int64)))
-    ring = np.empty(ring_offset[-1], np.int32)
-    ring_corner = np.full(ring_offset[-1], -1, np.int32)
-    boundary_neighbors = np.full((n_vertices, 2), -1, np.int32)
-    has_ring = (n_corners > 0) & ~broken
-    for fans in (
-        _walk_corners(surface, half_edges, has_ring & ~is_twisted, blocks),
-        _walk_darts(surface, half_edges, has_ring & is_twisted, blocks),
-    ):
-        lengths = np.diff(fans.walks.offset)
-        is_fan = lengths == n_corners[fans.vertices]
-        is_fan &= lengths + fans.walks.is_open == valence[fans.vertices]
-        broken[fans.vertices[~is_fan]] = True
-        _store(fans, is_fan, ring, ring_corner, ring_offset)
-        rim = fans.vertices[is_fan & fans.walks.is_open]
-        boundary_neighbors[rim, 0] = ring[ring_offset[rim]]
-        boundary_neighbors[rim, 1] = ring[ring_offset[rim + 1] - 1]
-    _fill_unordered(edges[used], broken, ring, ring_offset)
+    rings = Rings(
+        ring_offset,
+        np.empty(ring_offset[-1], np.int32),
+        np.full(ring_offset[-1], -1, np.int32),
+        np.full((n_vertices, 2), -1, np.int32),
+    )
+    fill_rings(rings, surface, half_edges, n_corners, broken, is_twisted, labels, blocks)
+    if broken.any():
+        _fill_unordered(edges[(count > 0) & ~is_loop], broken, rings, labels)
 
-    sizes = surface.face_sizes()
-    face_of_corner = np.repeat(np.arange(surface.n_faces, dtype=np.int32), sizes)
-    face_across = np.where(half_edges.partner >= 0, face_of_corner[half_edges.partner], np.int32(-1))
-    size_of_corner = sizes[face_of_corner]
+    size = surface.common_face_size()
     has_face = n_corners > 0
+    if size:
+        face_across = half_edges.partner // np.int32(size)  # the floor of -1 is -1
+        all_triangles, all_quads = has_face & (size == 3), has_face & (size == 4)
+        has_triangle_pairs = size == 3 and bool((face_across >= 0).any())
+    else:
+        sizes = surface.face_sizes()
+        face_of_corner = np.repeat(np.arange(surface.n_faces, dtype=np.int32), sizes)
+        face_across = np.where(half_edges.partner >= 0, face_of_corner[half_edges.partner], np.int32(-1))
+        size_of_corner = sizes[face_of_corner]
+        all_triangles = has_face & ~_marked(n_vertices, corner_vertex[size_of_corner != 3])
+        all_quads = has_face & ~_marked(n_vertices, corner_vertex[size_of_corner != 4])
+        is_pair = (size_of_corner == 3) & (face_across >= 0) & (sizes[face_across] == 3)
+        has_triangle_pairs = bool(is_pair.any())
     return Connectivity(
         ring_offset=ring_offset,
-        ring=ring,
-        ring_corner=ring_corner,
+        ring=rings.ring,
+        ring_corner=rings.corner,
         valence=valence,
         is_boundary=is_boundary,
-        boundary_neighbors=boundary_neighbors,
+        boundary_neighbors=rings.rim,
         is_non_manifold=broken,
         is_loose=~has_face,
-        all_triangles=has_face & ~_marked(n_vertices, corner_vertex[size_of_corner != 3]),
-        all_quads=has_face & ~_marked(n_vertices, corner_vertex[size_of_corner != 4]),
+        all_triangles=all_triangles,
+        all_quads=all_quads,
         edge_face_count=count,
         face_across=face_across,
         is_oriented=not half_edges.is_twisted.any(),
-        has_quads=bool((sizes == 4).any()),
-        has_triangle_pairs=bool(
-            ((size_of_corner == 3) & (face_across >= 0) & (sizes[face_across] == 3)).any()
-        ),
+        has_quads=bool((surface.face_sizes() == 4).any()),
+        has_triangle_pairs=has_triangle_pairs,
+        labels=labels,
     )
+
+
+def _valences(
+    edges: NDArray[np.int32],
+    count: NDArray[np.int32],
+    is_loop: NDArray[np.bool_],
+    n_corners: NDArray[np.intp],
+) -> NDArray[np.int32]:
+    """Return the number of edges with faces, loops left out, at each vertex.
+
+    Each corner lies between two half-edges of its vertex. So where all edges have two faces there are as many
+    edges as corners, and only the others have to be looked at.
+    """
+    half_edges = 2 * n_corners
+    odd = edges[(count != 2) & (count > 0) & ~is_loop]
+    if len(odd):
+        extra = count[(count != 2) & (count > 0) & ~is_loop] - 2
+        half_edges -= np.bincount(odd.ravel(), np.repeat(extra, 2), len(n_corners)).astype(np.intp)
+    if is_loop.any():
+        loops = is_loop & (count > 0)
+        half_edges -= np.bincount(edges[loops, 0], 2 * count[loops], len(n_corners)).astype(np.intp)
+    return (half_edges // 2).astype(np.int32)
 
 
 def _marked(n: int, indices: NDArray[np.integer]) -> NDArray[np.bool_]:
@@ -189,95 +218,18 @@ def _marked(n: int, indices: NDArray[np.integer]) -> NDArray[np.bool_]:
     return mask
 
 
-class _Fans(NamedTuple):
-    """Walks around vertices, and what the walked items mean."""
-
-    walks: Walks
-    vertices: NDArray[np.intp]
-    pointed: NDArray[np.int32]
-    """The vertex that an item points to."""
-    beyond: NDArray[np.int32]
-    """The vertex behind an item's face, which ends the ring after the last item of an open walk."""
-    items_per_corner: int
-
-
-def _walk_corners(
-    surface: SurfaceMesh, half_edges: HalfEdges, wanted: NDArray[np.bool_], blocks: Blocks
-) -> _Fans:
-    """Walk around vertices whose faces agree in orientation."""
-    vertex = surface.corner_vertex
-    pointed, source = vertex[half_edges.next_corner], vertex[half_edges.previous_corner]
-    # The partner of the incoming half-edge leaves the same vertex, in the next face counterclockwise.
-    following = half_edges.partner[half_edges.previous_corner]
-    start = np.full(surface.n_vertices, -1, np.int32)
-    start[vertex] = np.arange(surface.n_corners, dtype=np.int32)
-    rim = np.flatnonzero(half_edges.partner < 0).astype(np.int32)
-    start[vertex[rim]] = rim  # an open fan begins where no face lies on the other side of the outgoing edge
-    vertices = np.flatnonzero(wanted)
-    return _Fans(walk(following, start[vertices], vertex, pointed, blocks), vertices, pointed, source, 1)
-
-
-def _walk_darts(
-    surface: SurfaceMesh, half_edges: HalfEdges, wanted: NDArray[np.bool_], blocks: Blocks
-) -> _Fans:
-    """Walk around vertices where neighboring faces disagree in orientation, dart by dart (see `rings`)."""
-    vertices = np.flatnonzero(wanted)
-    if not len(vertices):
-        none = np.zeros(0, np.int32)
-        return _Fans(Walks(none, np.zeros(1, np.int64), np.zeros(0, bool)), vertices, none, none, 2)
-    vertex = surface.corner_vertex
-    n_darts = 2 * surface.n_corners
-    half_edge = np.empty(n_darts, np.int32)
-    half_edge[0::2] = np.arange(surface.n_corners)
-    half_edge[1::2] = half_edges.previous_corner
-    owner = np.repeat(vertex, 2)
-    pointed = np.empty(n_darts, np.int32)
-    pointed[0::2], pointed[1::2] = vertex[half_edges.next_corner], vertex[half_edges.previous_corner]
-    partner = half_edges.partner[half_edge]
-    leaves = vertex[partner] == owner  # the partner half-edge starts at this vertex, or ends at it
-    across = np.where(leaves, 2 * partner, 2 * half_edges.next_corner[partner] + 1)
-    across = np.where(partner >= 0, across, -1).astype(np.int32)
-    turned = np.arange(n_darts) ^ 1
-    following = across[turned]
-    start = np.full(surface.n_vertices, -1, np.int32)
-    start[owner] = np.arange(n_darts, dtype=np.int32)
-    rim = np.flatnonzero(across < 0).astype(np.int32)
-    rim = rim[np.argsort(-pointed[rim], kind="stable")]  # the lower-numbered end is written last and wins
-    start[owner[rim]] = rim
-    return _Fans(
-        walk(following, start[vertices], owner, pointed, blocks), vertices, pointed, pointed[turned], 2
-    )
-
-
-def _store(
-    fans: _Fans,
-    is_fan: NDArray[np.bool_],
-    ring: NDArray[np.int32],
-    ring_corner: NDArray[np.int32],
-    ring_offset: NDArray[np.int64],
-) -> None:
-    """Copy the walks that are whole fans into the ring arrays."""
-    walks, vertices = fans.walks, fans.vertices
-    lengths = np.diff(walks.offset)
-    place = np.arange(len(walks.items)) + np.repeat(ring_offset[vertices] - walks.offset[:-1], lengths)
-    good = np.repeat(is_fan, lengths)
-    ring[place[good]] = fans.pointed[walks.items[good]]
-    ring_corner[place[good]] = walks.items[good] // fans.items_per_corner
-    is_rim = is_fan & walks.is_open
-    ring[ring_offset[vertices[is_rim] + 1] - 1] = fans.beyond[walks.items[walks.offset[1:][is_rim] - 1]]
-
-
 def _fill_unordered(
     edges: NDArray[np.int32],
     broken: NDArray[np.bool_],
-    ring: NDArray[np.int32],
-    ring_offset: NDArray[np.int64],
+    rings: Rings,
+    labels: NDArray[np.int32] | None,
 ) -> None:
     """Give non-manifold vertices their edge neighbors in ascending order."""
     pairs = np.concatenate((edges, edges[:, ::-1]))
     pairs = pairs[broken[pairs[:, 0]]]
-    order = np.lexsort((pairs[:, 1], pairs[:, 0]))
+    rank = pairs[:, 1] if labels is None else labels[pairs[:, 1]]
+    order = np.lexsort((rank, pairs[:, 0]))
     vertices = np.flatnonzero(broken)
-    counts = np.diff(ring_offset)[vertices]
-    begin = np.repeat(ring_offset[vertices] - (np.cumsum(counts) - counts), counts)
-    ring[begin + np.arange(len(begin))] = pairs[order, 1]
+    counts = np.diff(rings.offset)[vertices]
+    begin = np.repeat(rings.offset[vertices] - (np.cumsum(counts) - counts), counts)
+    rings.ring[begin + np.arange(len(begin))] = pairs[order, 1]

@@ -17,6 +17,11 @@ LARGEST_CLIQUE = 8
 """In larger faces only edge neighbors are adjacent; all pairs of a huge n-gon would fill the memory."""
 
 
+CENTERS_AT_ONCE = 512
+LARGEST_TABLE = 2**22
+"""Centers that are searched from at once, and truth values for them; with more, fewer centers at once."""
+
+
 class Adjacency(NamedTuple):
     """Neighbors of vertex k: `neighbor[offset[k]:offset[k + 1]]`."""
 
@@ -47,23 +52,23 @@ def face_adjacency(surface: SurfaceMesh, connectivity: Connectivity) -> Adjacenc
 
 
 class Ring(NamedTuple):
-    """Pairs of center (`row`, counted from the start of the block) and ring vertex, in ascending order."""
+    """Pairs of center (`row`, its place among the centers) and ring vertex, in ascending order."""
 
     row: NDArray[np.intp]
     vertex: NDArray[np.intp]
 
 
 def distance_rings(
-    adjacency: Adjacency, start: int, stop: int, distances: Collection[int]
+    adjacency: Adjacency, centers: NDArray[np.integer], distances: Collection[int]
 ) -> dict[int, Ring]:
-    """Find the vertices at exact distances from each of a range of vertices, by breadth-first search.
+    """Find the vertices at exact distances from each of several vertices, by breadth-first search.
 
     Parameters
     ----------
     adjacency : Adjacency
         Who is one step away.
-    start, stop : int
-        Range of center vertices.
+    centers : ndarray, shape (n,), int
+        Different vertices; it is fastest if those that follow each other are close together.
     distances : collection of int
         Wanted distances, at least 1.
 
@@ -71,22 +76,107 @@ def distance_rings(
     -------
     dict
         The `Ring` at each distance.
+
+    Notes
+    -----
+    A few centers at a time share one table of truth values, whose columns are the vertices around them: who
+    was reached is a mark in it, so that nothing has to be sorted.
     """
-    n = len(adjacency.offset) - 1
-    inner = np.zeros(0, np.int64)
-    keys = np.arange(stop - start) * n + np.arange(start, stop)
+    numbers = np.full(len(adjacency.offset) - 1, -1, np.int32)
+    parts: list[dict[int, Ring]] = []
+    starts = range(0, len(centers), CENTERS_AT_ONCE)
+    waiting = [(begin, min(begin + CENTERS_AT_ONCE, len(centers))) for begin in starts]
+    waiting.reverse()
+    while waiting:
+        begin, end = waiting.pop()
+        around = _reachable(adjacency, centers[begin:end], max(distances), numbers)
+        if (end - begin) * len(around) > LARGEST_TABLE and end - begin > 1:
+            middle = (begin + end) // 2
+            waiting += [(middle, end), (begin, middle)]
+        else:
+            parts.append(_search(adjacency, begin, centers[begin:end], distances, around, numbers))
+        numbers[around] = -1
+    none = {distance: Ring(np.zeros(0, np.intp), np.zeros(0, np.intp)) for distance in distances}
+    return {
+        distance: Ring(
+            *(np.concatenate(rows) for rows in zip(*(part[distance] for part in parts), strict=True))
+        )
+        for distance in (distances if parts else ())
+    } or none
+
+
+def _reachable(
+    adjacency: Adjacency, centers: NDArray[np.integer], n_steps: int, numbers: NDArray[np.int32]
+) -> NDArray[np.int32]:
+    """Return the vertices at most `n_steps` from any of the centers, ascending; numbers them in `numbers`."""
+    found = [centers]
+    numbers[centers] = 0
+    for _ in range(n_steps):
+        reached = adjacency.neighbor[_ragged(adjacency.offset, found[-1])[0]]
+        reached = np.unique(reached[numbers[reached] < 0])
+        numbers[reached] = 0
+        found.append(reached)
+    around = np.sort(np.concatenate(found))
+    numbers[around] = np.arange(len(around), dtype=np.int32)
+    return around
+
+
+def _search(
+    adjacency: Adjacency,
+    first_row: int,
+    centers: NDArray[np.integer],
+    distances: Collection[int],
+    around: NDArray[np.int32],
+    numbers: NDArray[np.int32],
+) -> dict[int, Ring]:
+    """Return the rings of centers whose surroundings are `around`; rows are counted from `first_row`."""
+    width = len(around) + 1  # the last column is for neighbors that do not matter
+    place, counts = _ragged(adjacency.offset, around)
+    begin = np.cumsum(counts) - counts
+    neighbor = numbers[adjacency.neighbor[place]].astype(np.intp)
+    neighbor[neighbor < 0] = width - 1  # beyond the last distance
+    widest = int(counts.max(initial=0))
+    table = None
+    if len(around) * widest <= 4 * len(neighbor):
+        table = np.full((len(around), widest), width - 1)
+        table[
+            np.repeat(np.arange(len(around)), counts), np.arange(len(neighbor)) - np.repeat(begin, counts)
+        ] = neighbor
+    row = np.arange(len(centers))
+    local = numbers[centers].astype(np.intp)
+    seen = np.zeros((len(centers), width), bool)
+    seen[row, local] = True
+    seen[:, -1] = True
     rings = {}
     for distance in range(1, max(distances) + 1):
-        row, vertex = np.divmod(keys, n)
-        counts = adjacency.offset[vertex + 1] - adjacency.offset[vertex]
-        begin = np.repeat(adjacency.offset[vertex] - (np.cumsum(counts) - counts), counts)
-        reached = adjacency.neighbor[begin + np.arange(len(begin))] + np.repeat(row * n, counts)
-        reached = sorted_unique(reached)
-        fresh = ~_contains(keys, reached) & ~_contains(inner, reached)
-        inner, keys = keys, reached[fresh]
+        if table is not None:
+            reached = table[local]
+            reached += (row * width)[:, None]
+        else:  # a few vertices have very many neighbors
+            sizes = counts[local]
+            spread = np.repeat(begin[local] - (np.cumsum(sizes) - sizes), sizes)
+            reached = neighbor[spread + np.arange(len(spread))]
+            reached += np.repeat(row * width, sizes)
+        fresh = np.zeros(seen.shape, bool)
+        fresh.reshape(-1)[reached] = True
+        np.greater(fresh, seen, out=fresh)
+        seen |= fresh
+        keys = np.flatnonzero(fresh)
+        row = keys // width
+        local = keys - row * width
         if distance in distances:
-            rings[distance] = Ring(*np.divmod(keys, n))
+            rings[distance] = Ring(row + first_row, around[local].astype(np.intp))
     return rings
+
+
+def _ragged(
+    offset: NDArray[np.int64], vertices: NDArray[np.integer]
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return where the neighbors of vertices stand, one vertex after the other, and their numbers."""
+    counts = offset[vertices + 1] - offset[vertices]
+    place = np.repeat(offset[vertices] - (np.cumsum(counts) - counts), counts)
+    place += np.arange(len(place))
+    return place, counts
 
 
 def sorted_unique(values: NDArray[np.int64]) -> NDArray[np.int64]:
@@ -95,11 +185,3 @@ def sorted_unique(values: NDArray[np.int64]) -> NDArray[np.int64]:
     is_first = np.ones(len(values), bool)
     np.not_equal(values[1:], values[:-1], out=is_first[1:])
     return values[is_first]
-
-
-def _contains(ascending: NDArray[np.int64], values: NDArray[np.int64]) -> NDArray[np.bool_]:
-    """Return which values stand in an ascending array."""
-    if not len(ascending):
-        return np.zeros(len(values), bool)
-    place = np.minimum(np.searchsorted(ascending, values), len(ascending) - 1)
-    return ascending[place] == values

@@ -7,69 +7,113 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..blocks import Blocks
 from .surface_mesh import SurfaceMesh
 
-_CORNERS_AT_ONCE = 2**16
-"""Blocks of corners whose temporaries stay in the cache."""
+
+def coordinate_rows(surface: SurfaceMesh) -> NDArray[np.float64]:
+    """Return a copy of the positions with coordinates in rows, shape (3, N), float64."""
+    return np.array(surface.vertices.T, np.float64, order="C")
 
 
-def mean_edge_length(surface: SurfaceMesh) -> float:
+def mean_edge_length(surface: SurfaceMesh, blocks: Blocks | None = None) -> float:
     """Return the mean edge length over all face-edge incidences, in scene units; 0.0 without faces.
 
     An edge between two faces counts twice, so that on a closed mesh this is the mean over its edges.
+    `blocks` are threads to work on.
     """
     if not surface.n_corners:
         return 0.0
-    vertex = surface.corner_vertex
-    following = vertex[surface.next_corner()]
-    total = 0.0
-    for start in range(0, len(vertex), _CORNERS_AT_ONCE):
-        part = slice(start, start + _CORNERS_AT_ONCE)
-        edge = surface.vertices[following[part]] - surface.vertices[vertex[part]].astype(np.float64)
-        total += float(np.sqrt(np.einsum("ci,ci->c", edge, edge)).sum())
-    return total / len(vertex)
+    points = coordinate_rows(surface)
+    n_faces = np.bincount(surface.corner_edge, minlength=surface.n_edges)
+
+    def kernel(start: int, stop: int) -> float:
+        ends = np.ascontiguousarray(surface.edges[start:stop].T, np.intp)
+        step = points.take(ends[0], axis=1, mode="clip")
+        step -= points.take(ends[1], axis=1, mode="clip")
+        # Not a dot product, which a matrix library would spread over threads of its own.
+        return float((row_lengths(step) * n_faces[start:stop]).sum())
+
+    return sum((blocks or Blocks(1)).run(kernel, surface.n_edges)) / surface.n_corners
 
 
-def face_area_vectors(surface: SurfaceMesh) -> NDArray[np.float64]:
+def row_lengths(rows: NDArray[np.floating]) -> NDArray[np.floating]:
+    """Return the lengths of vectors with coordinates in rows, shape (3, n); changes the rows."""
+    np.multiply(rows, rows, out=rows)
+    total = rows[0]
+    total += rows[1]
+    total += rows[2]
+    return np.sqrt(total, out=total)
+
+
+def face_area_vectors(surface: SurfaceMesh, blocks: Blocks | None = None) -> NDArray[np.float64]:
     """Return the vector area of each face, shape (F, 3), float64: its normal times its area.
 
     By Newell's formula, which serves planar and non-planar polygons alike: half the cross product of two
-    edges for a triangle and half that of the diagonals for a quad.
+    edges for a triangle and half that of the diagonals for a quad. `blocks` are threads to work on.
     """
-    vectors = np.zeros((surface.n_faces, 3))
-    sizes = surface.face_sizes()
-    for size in (3, 4):
-        faces = np.flatnonzero(sizes == size)
-        first = surface.face_offset[:-1][faces]
-        corners = [surface.vertices[surface.corner_vertex[first + step]] for step in range(size)]
-        origin = corners[0].astype(np.float64)
-        if size == 3:
-            vectors[faces] = _half_cross(corners[1] - origin, corners[2] - origin)
-        else:
-            vectors[faces] = _half_cross(corners[2] - origin, corners[3].astype(np.float64) - corners[1])
-    faces = np.flatnonzero(sizes > 4)
-    if len(faces):
-        vectors[faces] = _newell_areas(surface, faces)
+    points = coordinate_rows(surface)
+    vectors = np.empty((surface.n_faces, 3))
+
+    def kernel(start: int, stop: int) -> None:
+        vectors[start:stop] = area_rows(points, surface, start, stop).T
+
+    (blocks or Blocks(1)).run(kernel, surface.n_faces)
     return vectors
 
 
+def area_rows(
+    points: NDArray[np.float64], surface: SurfaceMesh, start: int, stop: int
+) -> NDArray[np.float64]:
+    """Return the vector areas of faces start to stop of a mesh, shape (3, stop - start).
+
+    `points`, shape (3, N), are the positions; those of the mesh are not looked at.
+    """
+    sizes = np.diff(surface.face_offset[start : stop + 1])
+    first = surface.face_offset[start:stop]
+    areas = np.zeros((3, stop - start))
+    for size in (3, 4):
+        faces = np.flatnonzero(sizes == size)
+        if not len(faces):
+            continue
+        vertices = surface.corner_vertex[first[faces] + np.arange(size)[:, None]]
+        corners = points.take(vertices.astype(np.intp), axis=1, mode="clip")
+        if size == 3:
+            corners[:, 1:] -= corners[:, :1]
+            found = _half_cross(corners[:, 1], corners[:, 2])
+        else:
+            found = _half_cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
+        if len(faces) == stop - start:
+            return found
+        areas[:, faces] = found
+    faces = np.flatnonzero(sizes > 4)
+    if len(faces):
+        areas[:, faces] = _newell_areas(points, surface, start + faces)
+    return areas
+
+
 def _half_cross(first: NDArray[np.float64], second: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return half the cross products of vectors, shape (n, 3)."""
-    (a, b, c), (x, y, z) = first.T, second.T
-    return 0.5 * np.stack((b * z - c * y, c * x - a * z, a * y - b * x), axis=1)
+    """Return half the cross products of vectors, coordinates in rows, shape (3, n)."""
+    (a, b, c), (x, y, z) = first, second
+    result = np.stack((b * z - c * y, c * x - a * z, a * y - b * x))
+    result *= 0.5
+    return result
 
 
-def _newell_areas(surface: SurfaceMesh, faces: NDArray[np.intp]) -> NDArray[np.float64]:
-    """Return the vector areas of polygons of any size, shape (n, 3)."""
-    counts = surface.face_sizes()[faces]
+def _newell_areas(
+    points: NDArray[np.float64], surface: SurfaceMesh, faces: NDArray[np.intp]
+) -> NDArray[np.float64]:
+    """Return the vector areas of polygons of any size, shape (3, n)."""
+    first = surface.face_offset[:-1][faces]
+    counts = surface.face_offset[1:][faces] - first
     begin = np.cumsum(counts) - counts
-    corner = np.arange(counts.sum()) + np.repeat(surface.face_offset[:-1][faces] - begin, counts)
+    corner = np.arange(counts.sum()) + np.repeat(first - begin, counts)
     following = np.arange(1, len(corner) + 1)
     following[begin + counts - 1] = begin
-    points = surface.vertices[surface.corner_vertex[corner]].astype(np.float64)
+    corners = points[:, surface.corner_vertex[corner]]
     # Relative to the face's first corner, so that a mesh far from the origin loses no digits.
-    points -= np.repeat(points[begin], counts, axis=0)
-    return np.add.reduceat(_half_cross(points, points[following]), begin, axis=0)
+    corners -= np.repeat(corners[:, begin], counts, axis=1)
+    return np.add.reduceat(_half_cross(corners, corners[:, following]), begin, axis=1)
 
 
 def unit_vectors(vectors: NDArray[np.float64]) -> NDArray[np.float64]:

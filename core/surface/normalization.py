@@ -7,11 +7,14 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..blocks import Blocks
 from .connectivity import Connectivity
 from .surface_mesh import SurfaceMesh
 
 
-def normalize(surface: SurfaceMesh, connectivity: Connectivity, edge: float) -> NDArray[np.float64]:
+def normalize(
+    surface: SurfaceMesh, connectivity: Connectivity, edge: float, blocks: Blocks | None = None
+) -> NDArray[np.float64]:
     """Return positions around the center of the surface, in units of the mean edge length.
 
     Parameters
@@ -22,24 +25,75 @@ def normalize(surface: SurfaceMesh, connectivity: Connectivity, edge: float) -> 
         Its neighborhoods.
     edge : float
         Mean edge length.
+    blocks : Blocks, optional
+        Threads to work on.
 
     Returns
     -------
     ndarray, shape (N, 3), float64
         Loose vertices, which may be anywhere, are put at the center, so that they cost no digits.
     """
-    positions = surface.vertices.astype(np.float64)
+    blocks = blocks or Blocks(1)
+    positions = np.empty((surface.n_vertices, 3))
     used = ~connectivity.is_loose
-    low, high = positions[used].min(axis=0), positions[used].max(axis=0)
+
+    def bounds(start: int, stop: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        rows = surface.vertices[start:stop].T.astype(np.float64, order="C")
+        part = used[start:stop]
+        low = rows.min(axis=1, initial=np.inf, where=part)
+        return low, rows.max(axis=1, initial=-np.inf, where=part)
+
+    found = blocks.run(bounds, surface.n_vertices)
+    low = np.min([part[0] for part in found], axis=0)
+    high = np.max([part[1] for part in found], axis=0)
     center = low + 0.5 * (high - low)
-    positions[~used] = center
-    return (positions - center) / edge
+
+    def move(start: int, stop: int) -> None:
+        part = positions[start:stop]
+        part[:] = surface.vertices[start:stop]
+        part[~used[start:stop]] = center
+        part -= center
+        part /= edge
+
+    blocks.run(move, surface.n_vertices)
+    return positions
 
 
-def displaced(vertices: NDArray[np.floating], displacement: NDArray[np.floating]) -> NDArray[np.floating]:
-    """Return vertices plus a displacement, both shape (N, 3), in the dtype of the vertices.
+def displaced(
+    vertices: NDArray[np.floating],
+    points: NDArray[np.floating],
+    origin: NDArray[np.floating],
+    edge: float,
+    blocks: Blocks | None = None,
+) -> NDArray[np.floating]:
+    """Return vertices moved as points of normalized space have moved.
 
-    Coordinates that are not displaced keep their bits, the sign of a zero included.
+    Parameters
+    ----------
+    vertices : ndarray, shape (N, 3)
+        Positions in scene units; not modified.
+    points, origin : ndarray, shape (3, N)
+        Where the points are, and where they were, in mean edge lengths.
+    edge : float
+        Mean edge length.
+    blocks : Blocks, optional
+        Threads to work on.
+
+    Returns
+    -------
+    ndarray, shape (N, 3)
+        In the dtype of the vertices. Coordinates that are not displaced keep their bits, the sign of a zero
+        included.
     """
-    moved = (vertices.astype(np.float64) + displacement).astype(vertices.dtype)
-    return np.where(displacement != 0, moved, vertices)
+    result = np.empty_like(vertices)
+
+    def kernel(start: int, stop: int) -> None:
+        part = slice(start, stop)
+        step = points[:, part].astype(np.float64)
+        step -= origin[:, part]
+        step *= edge
+        moved = (vertices[part] + step.T).astype(vertices.dtype)
+        result[part] = np.where(step.T != 0, moved, vertices[part])
+
+    (blocks or Blocks(1)).run(kernel, len(vertices))
+    return result

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -13,6 +14,7 @@ from numpy.typing import DTypeLike, NDArray
 from ..blocks import Blocks
 from ..frames.valence_masks import HarmonicBank, PairwiseBank
 from ..stencils.members import Members
+from ..surface.locality import stable_order
 from .level import Chunk, Points, Visit
 
 SLOTS_PER_CHUNK = 2**17
@@ -55,6 +57,13 @@ def ring_neighbors(members: Members, boundary: str) -> Neighbors:
     return Neighbors(np.concatenate(([0], np.cumsum(counts))), members.near[is_found], is_ordered, is_kept)
 
 
+class _Source(NamedTuple):
+    """Vertices, shape (n,), and the places of their taps in the flat list of all taps, shape (count, n)."""
+
+    vertices: NDArray[np.intp]
+    places: NDArray[np.int32]
+
+
 class _Chunk:
     """Vertices with the same number of neighbors, and their taps."""
 
@@ -88,11 +97,6 @@ class AdaptiveLevel:
         Precision to work in.
     blocks : Blocks
         Threads to work on.
-
-    Attributes
-    ----------
-    measure : ndarray, shape (N,), float64
-        The measure m pulled back to this level's input.
     """
 
     def __init__(
@@ -107,24 +111,64 @@ class AdaptiveLevel:
         self._dtype = np.dtype(dtype)
         self._n = len(neighbors.is_kept)
         self._chunks = _make_chunks(neighbors, family)
+        self._out_measure = out_measure
+        self._is_weighted = bool((out_measure != 1.0).any())
+
+    @cached_property
+    def measure(self) -> NDArray[np.float64]:
+        """The measure m pulled back to this level's input, shape (N,)."""
+        measure = np.zeros(self._n)
+        for chunk in self._chunks:
+            flow = chunk.bank.weights[:, None] * self._out_measure[chunk.vertices]
+            measure += np.bincount(chunk.taps.ravel(), flow.ravel(), self._n)
+        return measure
+
+    @cached_property
+    def _sources(self) -> list[_Source]:
+        """Where the taps of each vertex stand, as (vertices, places) of as many taps each."""
         taps = np.concatenate([chunk.taps.ravel() for chunk in self._chunks])
-        flow = np.concatenate(
-            [(chunk.bank.weights[:, None] * out_measure[chunk.vertices]).ravel() for chunk in self._chunks]
-        )
-        self.measure = np.bincount(taps, flow, self._n).astype(np.float64, copy=False)
-        # Every vertex is at least its own tap, so that no row of the transposed table is empty.
-        self._order = np.argsort(taps, kind="stable")
+        order = stable_order(taps, self._n)
         counts = np.bincount(taps, minlength=self._n)
-        self._begin = np.cumsum(counts) - counts
-        share = np.concatenate(
-            [np.broadcast_to(out_measure[chunk.vertices], chunk.taps.shape).ravel() for chunk in self._chunks]
-        )
-        self._share = (share / self.measure[taps]).astype(dtype)
+        begin = np.cumsum(counts) - counts
+        # Every vertex is at least its own tap, so that no count is zero.
+        sources: list[_Source] = []
+        for count in np.unique(counts):
+            group = np.flatnonzero(counts == count)
+            size = max(1, SLOTS_PER_CHUNK // int(count))
+            for part in np.split(group, range(size, len(group), size)):
+                sources.append(_Source(part, order[begin[part] + np.arange(count)[:, None]]))
+        return sources
+
+    def _gathered(self, slots: NDArray[np.floating]) -> Points:
+        """Sum values of all taps, shape (3, slots), to the vertices under them, and divide by the measure."""
+        result = np.empty((3, self._n), slots.dtype)
+        share = np.divide(1.0, self.measure).astype(slots.dtype)
+        sources = self._sources
+
+        def kernel(index: int, _: int) -> None:
+            vertices, places = sources[index]
+            total = slots.take(places, axis=1).sum(axis=1)
+            total *= share[vertices]
+            result[:, vertices] = total
+
+        self._blocks.run(kernel, len(sources))
+        return result
+
+    def _taps_of(self, chunk: _Chunk, coefficients: NDArray[np.floating]) -> NDArray[np.floating]:
+        """Return M' alpha times the measure, shape (3, taps of the chunk)."""
+        taps = chunk.bank.apply_transposed(coefficients)
+        if self._is_weighted:
+            taps *= self._out_measure[chunk.vertices].astype(taps.dtype)
+        return taps.reshape(3, -1)
 
     @property
     def sites(self) -> Sequence[NDArray[np.intp]]:
         """For each chunk, its vertices."""
         return [chunk.vertices for chunk in self._chunks]
+
+    @property
+    def _n_slots(self) -> int:
+        return self._chunks[-1].place.stop
 
     @property
     def n_sites(self) -> int:
@@ -149,38 +193,63 @@ class AdaptiveLevel:
         """Return the bands of frequency 1, or all on a border; see `Level`."""
         return self._chunks[chunk].unpenalized
 
-    def forward(self, low: Points, visit: Visit) -> tuple[Points, NDArray[np.floating]]:
+    def forward(
+        self, low: Points, visit: Visit, *, needs_low: bool = True
+    ) -> tuple[Points, NDArray[np.floating]]:
         """Analyze a surface and begin to rebuild it; see `Level`."""
-        next_low = np.empty_like(low)
-        pending = np.empty((3, len(self._order)), low.dtype)
+        next_low = np.empty_like(low) if needs_low else low
+        slots = np.empty((3, self._n_slots), low.dtype)
 
         def kernel(index: int, _: int) -> None:
             chunk = self._chunks[index]
             coefficients = chunk.bank.apply(low.take(chunk.taps, axis=1))
-            next_low[:, chunk.vertices] = coefficients[:, 0]
+            if needs_low:
+                next_low[:, chunk.vertices] = coefficients[:, 0]
             visit(index, coefficients[:, 1:])
             coefficients[:, 0] = 0
-            pending[:, chunk.place] = chunk.bank.apply_transposed(coefficients).reshape(3, -1)
+            slots[:, chunk.place] = self._taps_of(chunk, coefficients)
 
         self._blocks.run(kernel, len(self._chunks))
-        return next_low, pending
+        return next_low, self._gathered(slots)
+
+    def low_pass(self, low: Points) -> Points:
+        """Return the low-pass of a surface, shape (3, N), without its bands."""
+        result = np.empty_like(low)
+
+        def kernel(index: int, _: int) -> None:
+            chunk = self._chunks[index]
+            weights = chunk.bank.weights.astype(low.dtype)
+            taps = low.take(chunk.taps, axis=1)
+            taps *= weights[:, None]
+            result[:, chunk.vertices] = taps.sum(axis=1)
+
+        self._blocks.run(kernel, len(self._chunks))
+        return result
 
     def pending(self, chunks: Sequence[Chunk]) -> NDArray[np.floating]:
         """Return what given high bands add to the rebuilt surface; see `Level`."""
-        pending = np.empty((3, len(self._order)), self._dtype)
+        slots = np.empty((3, self._n_slots), self._dtype)
         for chunk, high in zip(self._chunks, chunks, strict=True):
             coefficients = np.concatenate((np.zeros((3, 1, high.shape[2]), self._dtype), high), axis=1)
-            pending[:, chunk.place] = chunk.bank.apply_transposed(coefficients).reshape(3, -1)
-        return pending
+            slots[:, chunk.place] = self._taps_of(chunk, coefficients)
+        return self._gathered(slots)
 
-    def backward(self, next_low: Points, pending: NDArray[np.floating]) -> Points:
+    def backward(self, next_low: Points | None, pending: NDArray[np.floating]) -> Points:
         """Rebuild the surface by the adjoint with respect to the measures; see `Level`."""
-        pending = pending.copy()
-        for chunk in self._chunks:
-            weighted = chunk.bank.weights.astype(self._dtype)[:, None] * next_low[:, None, chunk.vertices]
-            pending[:, chunk.place] += weighted.reshape(3, -1)
-        pending *= self._share
-        return np.add.reduceat(pending[:, self._order], self._begin, axis=1)
+        if next_low is None:
+            return pending
+        slots = np.empty((3, self._n_slots), pending.dtype)
+        weighted = next_low * self._out_measure.astype(next_low.dtype) if self._is_weighted else next_low
+
+        def kernel(index: int, _: int) -> None:
+            chunk = self._chunks[index]
+            weights = chunk.bank.weights.astype(slots.dtype)[:, None]
+            slots[:, chunk.place] = (weights * weighted[:, None, chunk.vertices]).reshape(3, -1)
+
+        self._blocks.run(kernel, len(self._chunks))
+        result = self._gathered(slots)
+        result += pending
+        return result
 
     def adjoint(self, next_low: Points, chunks: Sequence[Chunk]) -> Points:
         """Apply the adjoint with respect to the measures, which is the inverse."""

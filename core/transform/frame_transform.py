@@ -58,12 +58,28 @@ class FrameTransform:
         one = np.ones(self.levels[0].n_vertices)
         return [*(getattr(level, "measure", one) for level in self.levels), one]
 
-    def shrink_and_rebuild(self, low: Points, visits: Sequence[Visit]) -> Points:
-        """Analyze positions, shape (3, N), let each level's visit change its bands, and rebuild them."""
+    def rebuild_changes(self, low: Points, visits: Sequence[Visit]) -> Points:
+        """Analyze positions, let each level's visit turn its bands into changes of them, and rebuild those.
+
+        Parameters
+        ----------
+        low : ndarray, shape (3, N)
+            Positions; not modified.
+        visits : sequence of callable
+            For each level, replaces high bands by what is to be added to them.
+
+        Returns
+        -------
+        ndarray, shape (3, N)
+            What is to be added to the positions: as everything is linear and the positions are rebuilt
+            perfectly, they need not go all the way. Valid until the transform is used again.
+        """
         waiting = []
-        for level, visit in zip(self.levels, visits, strict=True):
-            low, pending = level.forward(low, visit)
+        for index, (level, visit) in enumerate(zip(self.levels, visits, strict=True), 1):
+            low, pending = level.forward(low, visit, needs_low=index < len(self.levels))
             waiting.append(pending)
+        change: Points | None = None
         for level, pending in zip(reversed(self.levels), reversed(waiting), strict=True):
-            low = level.backward(low, pending)
-        return low
+            change = level.backward(change, pending)
+        assert change is not None
+        return change

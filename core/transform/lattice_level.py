@@ -15,6 +15,14 @@ from ..frames.mask_product import MaskProduct
 from ..stencils import Stencil
 from .level import Chunk, Points, Visit
 
+TAPS_PER_BLOCK = 2**18
+"""Taps that a block may hold, so that the arrays of wide masks stay in the cache too."""
+
+
+def _block_size(n_taps: int) -> int:
+    """Return the number of sites in a block, a power of two."""
+    return 2 ** max(10, (TAPS_PER_BLOCK // n_taps).bit_length() - 1)
+
 
 class LatticeLevel:
     """One level of (3.6), (3.7) for vertex-centered and cell-centered banks.
@@ -50,6 +58,7 @@ class LatticeLevel:
             raise ValueError(f"The stencil has {stencil.n_taps} taps, but {bank.name} has {bank.n_taps}.")
         bands = np.arange(bank.n_bands) if bands is None else bands
         self.stencil = stencil
+        blocks = blocks.sized(min(blocks.block_size, _block_size(stencil.n_taps)))
         self._blocks = blocks
         self._masks = bank.masks[bands]
         self._product = MaskProduct(self._masks, dtype)
@@ -57,6 +66,7 @@ class LatticeLevel:
         starts = range(0, stencil.n_sites, blocks.block_size)
         self.sites = [slice(start, min(start + blocks.block_size, stencil.n_sites)) for start in starts]
         self._points = np.empty((3, stencil.n_points), dtype)
+        self._detail: NDArray[np.floating] | None = None  # sums of the high bands, made on first use
         self._incidence = None if stencil.is_vertex_centered else _Incidence(stencil, len(self._rows), dtype)
 
     @property
@@ -82,23 +92,37 @@ class LatticeLevel:
         """Return no bands: first differences never reach the surface, as v is zero there."""
         return slice(0, 0)
 
-    def forward(self, low: Points, visit: Visit) -> tuple[Points, NDArray[np.floating]]:
+    def forward(
+        self, low: Points, visit: Visit, *, needs_low: bool = True
+    ) -> tuple[Points, NDArray[np.floating]]:
         """Analyze a surface and begin to rebuild it; see `Level`."""
         stencil, points = self.stencil, self._points
         points[:, : stencil.n_vertices] = low
         stencil.fill_virtual(points, self._blocks)
-        site_low = np.empty((3, stencil.n_sites), points.dtype)
-        detail = np.empty((len(self._rows), 3, stencil.n_sites), points.dtype)
+        # Averages over sites need a low-pass where a vertex is in none.
+        needs_low = needs_low or self._incidence is not None
+        site_low = np.empty((3, stencil.n_sites), points.dtype) if needs_low else None
+        if self._detail is None:
+            self._detail = np.empty((len(self._rows), 3, stencil.n_sites), points.dtype)
+        detail = self._detail
 
         def kernel(start: int, stop: int) -> None:
-            coefficients = self._product(stencil.gather(points, start, stop))
-            site_low[:, start:stop] = coefficients[:, 0]
-            visit(start // self._blocks.block_size, coefficients[:, 1:])
-            self._weigh(coefficients[:, 1:], detail[:, :, start:stop])
+            own_low = None if site_low is None else site_low[:, start:stop]
+            if self._product.is_hadamard and stencil.is_vertex_centered:
+                rings = stencil.gather_rings(points, start, stop)
+                high = self._product.high_bands(points[:, start:stop], rings, own_low)
+            else:
+                coefficients = self._product(stencil.gather(points, start, stop))
+                if own_low is not None:
+                    own_low[:] = coefficients[:, 0]
+                high = coefficients[:, 1:]
+            visit(start // self._blocks.block_size, high)
+            self._weigh(high, detail[:, :, start:stop])
 
         self._blocks.run(kernel, stencil.n_sites)
         if self._incidence is None:
-            return site_low, detail[0]
+            return low if site_low is None else site_low, detail[0]
+        assert site_low is not None
         return self._incidence.mean(np.broadcast_to(site_low, detail.shape), low), self._incidence.mean(
             detail
         )
@@ -113,13 +137,16 @@ class LatticeLevel:
     def _weigh(self, high: Chunk, out: NDArray[np.floating]) -> None:
         """Write the sums of v times the high bands, shape (rows, 3, n)."""
         for row, total in zip(self._rows[:, 1:], out, strict=True):
-            total[:] = 0
-            for band in np.flatnonzero(row):
-                total += high[:, band] if row[band] == 1 else row[band] * high[:, band]
+            used = np.flatnonzero(row)
+            if not len(used):
+                total[:] = 0
+            for place, band in enumerate(used):
+                term = high[:, band] if row[band] == 1 else row[band] * high[:, band]
+                np.add(total, term, out=total) if place else np.copyto(total, term)
 
-    def backward(self, next_low: Points, pending: NDArray[np.floating]) -> Points:
+    def backward(self, next_low: Points | None, pending: NDArray[np.floating]) -> Points:
         """Rebuild the surface; see `Level`."""
-        return next_low + pending
+        return pending if next_low is None else next_low + pending
 
     def adjoint(self, next_low: Points, chunks: Sequence[Chunk]) -> Points:
         """Apply the transposed matrix of this level.

@@ -50,7 +50,9 @@ class Level(Protocol):
         """Return the high bands that hold first differences only, which shrinkage leaves alone."""
         ...
 
-    def forward(self, low: Points, visit: Visit) -> tuple[Points, NDArray[np.floating]]:
+    def forward(
+        self, low: Points, visit: Visit, *, needs_low: bool = True
+    ) -> tuple[Points, NDArray[np.floating]]:
         """Analyze a surface and begin to rebuild it.
 
         Parameters
@@ -59,13 +61,16 @@ class Level(Protocol):
             Low-pass of the level before; not modified.
         visit : callable
             Sees the high bands and may change them.
+        needs_low : bool
+            Whether the low-pass is wanted.
 
         Returns
         -------
         next_low : ndarray, shape (3, N)
-            Low-pass of this level, on the vertices.
+            Low-pass of this level, on the vertices; `low` itself if it is not wanted.
         pending : ndarray
-            What the (changed) high bands add to the rebuilt surface; for `backward`.
+            What the (changed) high bands add to the rebuilt surface; for `backward`. The level may use this
+            array again when it is called the next time.
         """
         ...
 
@@ -73,8 +78,8 @@ class Level(Protocol):
         """Return what given high bands add to the rebuilt surface."""
         ...
 
-    def backward(self, next_low: Points, pending: NDArray[np.floating]) -> Points:
-        """Rebuild `low`, shape (3, N), from the low-pass of this level and its pending high bands."""
+    def backward(self, next_low: Points | None, pending: NDArray[np.floating]) -> Points:
+        """Rebuild `low`, shape (3, N), from the low-pass of this level, or none, and pending high bands."""
         ...
 
     def adjoint(self, next_low: Points, chunks: Sequence[Chunk]) -> Points:

@@ -125,7 +125,7 @@ def _adaptive_transform(
         if index + 1 < n_levels:
             level = AdaptiveLevel(neighbors[-1], family, one, dtype, blocks)
             points = np.ascontiguousarray(low.vertices.T, dtype)
-            low = low.with_vertices(np.ascontiguousarray(level.forward(points, _ignore)[0].T))
+            low = low.with_vertices(np.ascontiguousarray(level.low_pass(points).T))
     measure: NDArray[np.float64] = one
     levels: list[AdaptiveLevel] = []
     for chosen in reversed(neighbors):
@@ -148,7 +148,7 @@ def _is_reached(surface: SurfaceMesh, connectivity: Connectivity, bank: FilterBa
     adjacency = face_adjacency(surface, connectivity) if is_quads else edge_adjacency(connectivity)
     n_tried = min(surface.n_vertices, 1024)
     for vertex in np.linspace(0, surface.n_vertices - 1, n_tried).astype(int):
-        if len(distance_rings(adjacency, vertex, vertex + 1, {2**index})[2**index].vertex):
+        if len(distance_rings(adjacency, np.array([vertex]), {2**index})[2**index].vertex):
             return True
     return False
 

@@ -104,7 +104,7 @@ def test_python_calls_do_not_grow_with_the_mesh(preset, rng):
 
 
 def test_python_calls_grow_with_the_number_of_blocks_only(rng):
-    small_mesh, large_mesh = triangle_grid(128, 128), triangle_grid(256, 256)
+    small_mesh, large_mesh = triangle_grid(128, 256), triangle_grid(256, 512)
     small_mesh, large_mesh = noisy(small_mesh, rng), noisy(large_mesh, rng)
     assert (small_mesh.n_vertices, large_mesh.n_vertices) == (BLOCK_SIZE, 4 * BLOCK_SIZE)
     assert calls(work("TRI_2", large_mesh)) <= 4 * calls(work("TRI_2", small_mesh))
@@ -116,6 +116,16 @@ def test_results_come_in_the_order_of_the_blocks():
             assert blocks.run(lambda start, stop: (start, stop), 10) == [(0, 4), (4, 8), (8, 10)]
             assert blocks.run(lambda start, stop: (start, stop), 0) == []
             assert blocks.sized(7).run(lambda start, stop: stop - start, 10) == [7, 3]
+
+
+def test_threads_may_be_entered_again():
+    """What was made from them, other block sizes too, works before, in between and after."""
+    blocks = Blocks(2, block_size=4)
+    other = blocks.sized(7).sized(3)
+    for _ in range(2):
+        assert other.run(lambda start, stop: stop - start, 10) == [3, 3, 3, 1]
+        with blocks:
+            assert other.run(lambda start, stop: stop - start, 10) == [3, 3, 3, 1]
 
 
 def test_an_error_in_a_kernel_comes_out():

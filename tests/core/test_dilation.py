@@ -9,6 +9,7 @@ from framelet.core.blocks import Blocks
 from framelet.core.stencils import dilation
 from framelet.core.stencils.dilation import dilate
 from framelet.core.stencils.members import one_ring_members, quad_members, triangle_members
+from framelet.core.surface import distance_rings as distance_rings_module
 from framelet.core.surface.distance_rings import distance_rings, edge_adjacency, face_adjacency
 from meshes import MESHES, flipped, noisy, quad_grid, quad_torus, triangle_grid, triangle_torus, union
 from stars import star
@@ -60,19 +61,24 @@ def test_matches_the_plain_search(size, name, level, rng):
 
 
 @pytest.mark.parametrize("size", [3, 4])
-def test_rings_are_those_of_a_breadth_first_search(size):
+@pytest.mark.parametrize("largest", [1, 200, 2**22])
+def test_rings_are_those_of_a_breadth_first_search(size, largest, rng, monkeypatch):
+    """In one table, in several smaller ones, and with centers in any order."""
+    monkeypatch.setattr(distance_rings_module, "LARGEST_TABLE", largest)
+    monkeypatch.setattr(distance_rings_module, "CENTERS_AT_ONCE", 40)
     mesh = union(MESHES["mixed sheet"](), MESHES["soup"](), star(5, 2, size)[0])
     connectivity = connect(mesh)
     adjacency = face_adjacency(mesh, connectivity) if size == 4 else edge_adjacency(connectivity)
     near = neighbors_by(MeshTwin(mesh), size)
-    start, stop = 3, mesh.n_vertices - 2
-    rings = distance_rings(adjacency, start, stop, {1, 3, 4})
+    centers = rng.permutation(mesh.n_vertices)[5:]
+    rings = distance_rings(adjacency, centers, {1, 3, 4})
     assert set(rings) == {1, 3, 4}
-    for v in range(start, stop):
+    for row, v in enumerate(centers.tolist()):
         steps = distances(near, v)
         for distance, ring in rings.items():
             expected = sorted(w for w, d in steps.items() if d == distance)
-            assert ring.vertex[ring.row == v - start].tolist() == expected
+            assert ring.vertex[ring.row == row].tolist() == expected
+    assert all(not len(ring.row) for ring in distance_rings(adjacency, centers[:0], {2}).values())
 
 
 @pytest.mark.parametrize("level", [1, 2, 3])

@@ -95,3 +95,8 @@ def test_wrong_arguments_are_refused(coefficients):
     for threshold in (-0.5, np.nan):
         with pytest.raises(ValueError, match=rf"The threshold is {threshold}; it must not be negative"):
             clipped(coefficients, threshold, "VECTOR")
+
+
+@pytest.mark.parametrize("kind", ["BANDS", "VECTOR", "SCALAR"])
+def test_vertices_without_bands_stay_without(kind):
+    assert shrink(np.zeros((3, 0, 5)), 1.0, kind).shape == (3, 0, 5)

@@ -1,0 +1,170 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a run needs and later runs on the same mesh can use again: neighborhoods, stencils, normalized space.
+
+It depends on the mesh and on the settings that choose the stencils, not on λ, μ, δ, iterations and the like.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+from numpy.typing import DTypeLike, NDArray
+
+from ..blocks import Blocks
+from ..settings import DenoiseSettings
+from ..surface.checks import check_surface
+from ..surface.connectivity import Connectivity, connect
+from ..surface.locality import Reordering, is_scattered, reorder, spatial_order
+from ..surface.normalization import normalize
+from ..surface.surface_mesh import SurfaceMesh
+from ..transform import FrameTransform, choose_frame, make_transform
+from .constraints import Corners, find_corners
+from .shrinkage import SEPARABLE
+
+TOPOLOGY = tuple(item.name for item in fields(SurfaceMesh) if item.name != "vertices")
+
+
+@dataclass(frozen=True, eq=False)
+class Prepared:
+    """A mesh that is ready to be denoised.
+
+    It holds arrays that a run writes to: use it for one run at a time.
+
+    Attributes
+    ----------
+    surface : SurfaceMesh
+        The mesh that it was made for. Its arrays must not be changed as long as this is used.
+    reordering : Reordering or None
+        The same mesh with other numbers, if that makes the work faster; the arrays below go by them.
+    connectivity : Connectivity
+        The neighborhoods.
+    edge : float
+        Mean edge length in scene units.
+    noisy : ndarray, shape (3, N)
+        Normalized positions.
+    corners : Corners
+        Corners of borders.
+    transform : FrameTransform or None
+        The frame, if the method uses one.
+    blocks : Blocks
+        Threads to work on, to be entered by each run.
+    """
+
+    surface: SurfaceMesh
+    reordering: Reordering | None
+    connectivity: Connectivity
+    edge: float
+    noisy: NDArray[np.floating]
+    corners: Corners
+    transform: FrameTransform | None
+    blocks: Blocks
+    key: tuple[Any, ...]
+
+    @property
+    def ordered(self) -> SurfaceMesh:
+        """The mesh in the numbering that the work is done in."""
+        return self.surface if self.reordering is None else self.reordering.surface
+
+    def fits(self, surface: SurfaceMesh, settings: DenoiseSettings, dtype: DTypeLike = np.float32) -> bool:
+        """Tell whether this can be used for a mesh and settings: all arrays are compared value by value."""
+        return (
+            self.key == _key(settings, dtype)
+            and self.has_topology_of(surface)
+            and _is_same(self.surface.vertices, surface.vertices)
+        )
+
+    def has_topology_of(self, surface: SurfaceMesh) -> bool:
+        """Tell whether this was made for a mesh with the same faces and edges."""
+        return all(_is_same(getattr(self.surface, name), getattr(surface, name)) for name in TOPOLOGY)
+
+
+def prepare(
+    surface: SurfaceMesh,
+    settings: DenoiseSettings | None = None,
+    *,
+    connectivity: Connectivity | None = None,
+    dtype: DTypeLike = np.float32,
+    previous: Prepared | None = None,
+) -> Prepared:
+    """Do all of a run that does not depend on λ, μ, δ, iterations, tolerance and movable vertices.
+
+    Parameters
+    ----------
+    surface : SurfaceMesh
+        The noisy surface; not modified, and kept.
+    settings : DenoiseSettings, optional
+        Method, frame, stencil, levels, boundary and shrinkage count; by default those of the preset AUTO.
+    connectivity : Connectivity, optional
+        Neighborhoods of the mesh, if they are known already.
+    dtype : dtype, optional
+        Precision of the solver.
+    previous : Prepared, optional
+        What was prepared before. If it is for the same mesh and the same stencils it is returned; if only the
+        faces are the same, its neighborhoods are used.
+
+    Returns
+    -------
+    Prepared
+
+    Raises
+    ------
+    ValueError
+        In one sentence, if the mesh has no faces, no size or positions that are not finite, or if the frame
+        does not fit it.
+    """
+    settings = settings or DenoiseSettings()
+    reordering = None
+    if previous is not None and previous.has_topology_of(surface):
+        if previous.fits(surface, settings, dtype):
+            return previous
+        connectivity, reordering = previous.connectivity, previous.reordering
+        if reordering is not None:
+            reordering = reordering.with_vertices(surface.vertices)
+    blocks = Blocks(settings.threads)
+    with blocks:
+        edge = check_surface(surface, blocks)
+        if connectivity is None:
+            if is_scattered(surface):
+                reordering = reorder(surface, spatial_order(surface.vertices), blocks)
+            connectivity = (
+                connect(surface, blocks)
+                if reordering is None
+                else connect(reordering.surface, blocks, reordering.vertex_order)
+            )
+        ordered = surface if reordering is None else reordering.surface
+        normalized = normalize(ordered, connectivity, edge, blocks)
+        transform = None
+        if settings.method == "POSITIONS":
+            # Chosen on the normalized surface in full precision, so that rounding decides nothing.
+            transform = make_transform(
+                ordered.with_vertices(normalized),
+                choose_frame(settings.frame, connectivity),
+                settings.stencil,
+                settings.levels,
+                boundary=settings.boundary,
+                connectivity=connectivity,
+                blocks=blocks,
+                dtype=dtype,
+                only_used_bands=settings.shrinkage in SEPARABLE,
+            )
+        corners = find_corners(ordered, connectivity, settings.boundary)
+    noisy = np.ascontiguousarray(normalized.T, dtype)
+    return Prepared(
+        surface, reordering, connectivity, edge, noisy, corners, transform, blocks, _key(settings, dtype)
+    )
+
+
+def _key(settings: DenoiseSettings, dtype: DTypeLike) -> tuple[Any, ...]:
+    """Return what makes the stencils, besides the mesh."""
+    frame: tuple[Any, ...] = ()
+    if settings.method == "POSITIONS":
+        frame = (settings.frame, settings.stencil, settings.levels, settings.shrinkage in SEPARABLE)
+    return (settings.method, settings.boundary, np.dtype(dtype), *frame)
+
+
+def _is_same(first: NDArray, second: NDArray) -> bool:
+    """Tell whether two arrays have the same type, shape and values."""
+    return first is second or (first.dtype == second.dtype and np.array_equal(first, second))

@@ -1,0 +1,40 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Enabling the extension imports what draws and registers, and nothing that computes."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+ALLOWED = {"core", "core.choices", "core.frame_catalog", "core.settings"}
+PROGRAM = """
+import importlib.util, json, sys
+import bpy
+sys.modules["numpy"] = None  # Blender may have it already; from here on, importing it fails
+before = set(sys.modules)
+spec = importlib.util.spec_from_file_location("framelet", {init!r}, submodule_search_locations=[{root!r}])
+package = importlib.util.module_from_spec(spec)
+sys.modules["framelet"] = package
+spec.loader.exec_module(package)
+package.register()
+try:
+    loaded = sorted(set(sys.modules) - before)
+finally:
+    package.unregister()
+sys.stdout.write("\\n" + json.dumps(loaded) + "\\n")
+"""
+
+
+def test_enabling_imports_no_numpy_and_nothing_that_computes():
+    program = PROGRAM.format(init=str(ROOT / "__init__.py"), root=str(ROOT))
+    done = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, timeout=120, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    loaded = json.loads(done.stdout.strip().splitlines()[-1])
+    ours = {name.partition(".")[2] for name in loaded if name.startswith("framelet.")}
+    assert "operators.denoise" in ours
+    assert {name for name in ours if name.split(".")[0] == "core"} <= ALLOWED
+    assert not [name for name in loaded if name.split(".")[0] == "numpy"]

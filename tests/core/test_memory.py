@@ -1,0 +1,123 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The estimate of memory against what numpy allocates, and the refusal of what does not fit."""
+
+import tracemalloc
+
+import numpy as np
+import pytest
+from framelet.core import PRESETS, DenoiseSettings, SurfaceMesh, denoise
+from framelet.core import memory as module
+from framelet.core.memory import available_bytes, check_memory, estimated_bytes
+from meshes import faces_of, noisy, quad_torus
+
+TRI_2 = PRESETS["TRI_2"].settings
+CASES = [
+    ("triangles", {}),
+    ("triangles", {"shrinkage": "BANDS", "stencil": "MEAN", "delta": 0.1}),
+    ("triangles", {"levels": 2}),
+    ("triangles", {"frame": "ADAPTIVE", "stencil": "ADAPTIVE"}),
+    ("triangles", {"frame": "ADAPTIVE", "stencil": "ADAPTIVE", "levels": 2}),
+    ("triangles", {"frame": "PAIRWISE"}),
+    ("triangles", {"frame": "B_SPLINE_3"}),
+    ("triangles", {"method": "NORMALS"}),
+    ("triangles", {"method": "BILATERAL"}),
+    ("quads", {"frame": "LINEAR_SPLINE"}),
+    ("quads", {"frame": "B_SPLINE_4"}),
+]
+
+
+@pytest.fixture(scope="module")
+def surfaces():
+    """A torus of quads, and one of triangles with either diagonal of each quad: half of it is irregular."""
+    rng = np.random.default_rng(0)
+    quads = quad_torus(120, 200)
+    a, b, c, d = quads.corner_vertex.reshape(-1, 4).T
+    is_other = rng.random(len(a)) < 0.5
+    first = np.where(is_other, (a, b, c), (a, b, d)).T
+    second = np.where(is_other, (a, c, d), (b, c, d)).T
+    triangles = SurfaceMesh.from_faces(quads.vertices, np.concatenate((first, second)))
+    return {"triangles": noisy(triangles, rng), "quads": noisy(quads, rng)}
+
+
+@pytest.mark.parametrize(("kind", "changes"), CASES)
+def test_the_estimate_is_near_the_peak(kind, changes, surfaces):
+    """Within a factor of two, without what blocks in work take: on small meshes that is most of it."""
+    mesh = surfaces[kind]
+    settings = TRI_2.with_changes(threads=1, iterations=3, **changes)
+    tracemalloc.start()
+    denoise(mesh, settings)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    estimate = estimated_bytes(mesh.n_vertices, mesh.n_corners, settings)
+    assert peak < estimate
+    assert estimate - module._FIXED < 2.0 * peak
+
+
+@pytest.mark.parametrize("preset", PRESETS)
+def test_the_estimate_grows_with_the_mesh(preset):
+    settings = PRESETS[preset].settings
+    small, large = (estimated_bytes(n, 6 * n, settings) for n in (10**6, 10**7))
+    assert small > 200 * 10**6
+    assert 9 * (small - module._FIXED) < large < 10 * small
+    assert estimated_bytes(0, 0, settings) > 0
+    if settings.method == "POSITIONS":
+        assert estimated_bytes(10**6, 6 * 10**6, settings.with_changes(levels=3)) > small
+
+
+def test_a_run_that_does_not_fit_is_refused_before_it_begins(surfaces, monkeypatch):
+    mesh = surfaces["triangles"]
+    monkeypatch.setattr(module, "available_bytes", lambda: 10**7)
+    with pytest.raises(
+        ValueError, match=r"24,000 vertices need about .* MB of memory .* only 10 MB are free"
+    ):
+        denoise(mesh, TRI_2)
+    bad = SurfaceMesh.from_faces(np.full((3, 3), np.nan), [(0, 1, 2)])
+    with pytest.raises(ValueError, match="of memory"):
+        denoise(bad, TRI_2)  # nothing of the mesh was looked at
+
+
+def test_nothing_is_refused_where_memory_is_unknown(surfaces, monkeypatch):
+    monkeypatch.setattr(module, "available_bytes", lambda: None)
+    check_memory(10**12, 6 * 10**12, DenoiseSettings())
+
+
+def test_available_memory():
+    found = available_bytes()
+    assert found is None or 10**6 < found < 2**50
+
+
+@pytest.mark.parametrize("text", ["", "MemAvailable: much\n", "MemAvailable:\n", None])
+def test_systems_that_tell_otherwise(text, monkeypatch):
+    """Without a readable /proc/meminfo the system is asked; without an answer the result is None."""
+
+    def read_text(self, **_):
+        if text is None:
+            raise OSError("no such file")
+        return text
+
+    monkeypatch.setattr(module.Path, "read_text", read_text)
+    monkeypatch.setattr(
+        module.os, "sysconf", lambda name: {"SC_PAGE_SIZE": 4096}.get(name, 1000), raising=False
+    )
+    assert available_bytes() == 4096 * 1000
+
+    def silent(name):
+        raise ValueError("unrecognized configuration name")
+
+    monkeypatch.setattr(module.os, "sysconf", silent, raising=False)
+    assert available_bytes() is None
+    if module.os.name != "nt":
+        assert module._available_on_windows() is None  # no such library here
+
+
+def test_large_numbers_are_in_gigabytes(monkeypatch):
+    monkeypatch.setattr(module, "available_bytes", lambda: 7_900_000_000)
+    with pytest.raises(
+        ValueError, match=r"90,000,000 vertices need about \d\d\.\d GB .* only 7\.9 GB are free"
+    ):
+        check_memory(90_000_000, 540_000_000, TRI_2)
+
+
+def test_faces_of_the_test_meshes_are_what_they_are_called(surfaces):
+    assert {len(face) for face in faces_of(surfaces["quads"])} == {4}
