@@ -10,6 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..noise import NoiseEstimate
+from ..settings import DenoiseSettings
+
 Callback = Callable[[float, float], bool]
 """`callback(fraction, change)`: share of the work done, 0 to 1, and rms motion of the last iteration in mean
 edge lengths; returns True to stop."""
@@ -41,6 +44,12 @@ class DenoiseReport:
     loose_vertices: int
     """Vertices without a face; they do not move."""
     seconds: float
+    settings: DenoiseSettings
+    """What was used; λ, μ and iterations are those that were chosen, where they are taken from the noise."""
+    noise: NoiseEstimate | None = None
+    """The measured noise, if the method or the parameters needed it."""
+    recipe: str = ""
+    """With the method AUTO, the label of the recipe that was chosen."""
 
 
 @dataclass(frozen=True, eq=False)
