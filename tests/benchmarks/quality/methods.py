@@ -3,7 +3,6 @@
 """The methods that are compared: Framelet's presets, and baselines with a grid of settings."""
 
 from collections.abc import Iterator, Mapping
-from itertools import product
 from time import perf_counter
 from typing import Any, NamedTuple
 
@@ -15,6 +14,9 @@ from cases import Case
 from framelet.core import PRESETS, denoise
 
 Settings = Mapping[str, Any]
+
+FEWER_READINGS = 20_000
+"""From this many faces on there are fewer readings of the filters of normals, for time."""
 
 
 class Reading(NamedTuple):
@@ -63,8 +65,7 @@ class Baseline:
     defaults: Settings
     knob: str
     values: tuple
-    patience: int
-    """Readings without improvement after which a run is given up."""
+    patience: int = 2
 
     def is_available(self) -> bool:
         """Tell whether the method can run here."""
@@ -73,6 +74,10 @@ class Baseline:
     def serves(self, case: Case) -> bool:
         """Tell whether the method can run on a case."""
         return self.is_available()
+
+    def patience_on(self, case: Case) -> int:
+        """Return the readings without improvement after which a run on a case is given up."""
+        return self.patience
 
     def readings(self, case: Case, knob: Any, only: Settings | None = None) -> Iterator[Reading]:
         """Yield results for a value of the knob; only those with some settings if these are given."""
@@ -97,12 +102,20 @@ class BilateralNormals(Baseline):
     values = (0.15, 0.2, 0.25, 0.3, 0.35, 0.42, 0.5, 0.6, 0.8)
     normal_iterations = (1, 2, 5, 10, 20, 40, 80)
     vertex_iterations = (5, 10, 20, 40)
-    patience = 8
+    fewer_vertex_iterations = (10, 20)
+
+    def patience_on(self, case):
+        """Allow two numbers of normal iterations without improvement."""
+        return 2 * len(self._inner(case))
+
+    def _inner(self, case):
+        is_large = case.model.clean.n_faces >= FEWER_READINGS
+        return self.fewer_vertex_iterations if is_large else self.vertex_iterations
 
     def readings(self, case, knob, only=None):
         """Yield results at all pairs of numbers of iterations."""
         outer = (only["normal_iterations"],) if only else self.normal_iterations
-        inner = (only["vertex_iterations"],) if only else self.vertex_iterations
+        inner = (only["vertex_iterations"],) if only else self._inner(case)
         graph = case.model.graph
         seconds, began = 0.0, perf_counter()
         for n, normals in zip(
@@ -130,11 +143,14 @@ class GuidedNormals(Baseline):
     knob = "sigma_r"
     values = (0.1, 0.15, 0.2, 0.25, 0.35, 0.5, 0.7, 1.0)
     normal_iterations = (1, 2, 3, 5, 7, 10, 15, 20, 30, 40, 60)
-    patience = 3
+    fewer_normal_iterations = (1, 2, 3, 5, 7, 10, 20, 40)
+    patience = 2
 
     def readings(self, case, knob, only=None):
         """Yield results at all numbers of iterations."""
-        outer = (only["normal_iterations"],) if only else self.normal_iterations
+        is_large = case.model.clean.n_faces >= FEWER_READINGS
+        outer = self.fewer_normal_iterations if is_large else self.normal_iterations
+        outer = (only["normal_iterations"],) if only else outer
         seconds, began = 0.0, perf_counter()
         for n, points in zip(
             outer, guided_normals.filtered_positions(case.rows, case.model.graph, knob, outer), strict=True
@@ -148,18 +164,17 @@ class BilateralPositions(Baseline):
     """Bilateral mesh filtering (Fleishman et al. 2003), Framelet's preset BILATERAL."""
 
     name = "BILATERAL"
-    defaults = {"sigma_s": 0.0, "iterations": PRESETS["BILATERAL"].settings.iterations, "sigma_c": 1.0}
+    defaults = {"sigma_s": 0.0, "iterations": PRESETS["BILATERAL"].settings.iterations}
     knob = "sigma_s"
     values = (0.05, 0.1, 0.15, 0.25, 0.4)
-    rest = tuple(product((2, 5, 10), (1.0, 1.5)))
-    patience = 4
+    iterations = (2, 5, 10)
+    patience = 2
 
     def readings(self, case, knob, only=None):
-        """Yield results at all numbers of iterations and widths of the neighborhood, each from a run."""
-        rest = [(only["iterations"], only["sigma_c"])] if only else self.rest
+        """Yield results at all numbers of iterations, each from a run of its own."""
         connectivity = case.model.connectivity
-        for iterations, sigma_c in rest:
-            changes = {"sigma_s": knob, "iterations": iterations, "sigma_c": sigma_c}
+        for iterations in (only["iterations"],) if only else self.iterations:
+            changes = {"sigma_s": knob, "iterations": iterations}
             settings = PRESETS["BILATERAL"].settings.with_changes(**changes, threads=1)
             began = perf_counter()
             positions = denoise(case.noisy, settings, connectivity=connectivity).vertices

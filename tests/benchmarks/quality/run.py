@@ -13,6 +13,7 @@ import os
 import sys
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
+from importlib.util import find_spec
 from multiprocessing import get_context
 from pathlib import Path
 from time import perf_counter
@@ -22,7 +23,9 @@ from cases import QUICK_NOISES, SEEDS, CaseName, mesh_folder, model_names
 from measuring import Row, Task, run_task
 from methods import METHODS
 from noise import NOISES
+from results import Results
 from store import Store
+from tables import full_table, method_table, model_table, problem_table, target_table, write_wide
 
 PAGE = sources.ROOT / "docs" / "benchmarks_quality.md"
 PLOT = sources.ROOT / "docs" / "images" / "quality.png"
@@ -85,24 +88,44 @@ def run_tasks(tasks: list[Task], n_processes: int) -> Iterator[tuple[Task, list[
 
 def write_results(store: Store, folder: Path, is_for_docs: bool) -> None:
     """Write the one table as a CSV file, the tables for people, and the plot."""
-    from tables import Results, page, write_wide
-
     results = Results(store.rows)
     if not results.cases:
-        say("There are no cases with results of all kinds yet.")
+        say("No case has results of AUTO and of the baselines yet; there is no table to write.")
         return
     write_wide(results, folder / "results.csv")
-    text = page(results)
-    places = [(PAGE, PLOT)] if is_for_docs else [(folder / "quality.md", folder / "quality.png")]
-    for page_path, plot_path in places:
-        page_path.write_text(text, encoding="utf-8")
-        try:
-            from plot import draw
-        except ImportError:
-            say("matplotlib is not installed here; the plot is left out.")
-            continue
-        draw(results, plot_path)
-    say(f"Wrote results.csv in {folder}, and {places[0][0].name}.")
+    sections = make_sections(results)
+    text = "\n".join(f"## {title}\n\n{table}" for title, table in sections.items())
+    (folder / "quality.md").write_text(text, encoding="utf-8")
+    if is_for_docs:
+        update_page(sections)
+    if find_spec("matplotlib") is None:
+        say("matplotlib is not installed here; the plot is left out.")
+    else:
+        from plot import draw
+
+        draw(results, PLOT if is_for_docs else folder / "quality.png")
+    say(f"Wrote results.csv and quality.md in {folder}" + (", and updated docs." if is_for_docs else "."))
+
+
+def make_sections(results: Results) -> dict[str, str]:
+    """Return the tables by the names that they have in the page."""
+    return {
+        "targets": target_table(results),
+        "methods": method_table(results),
+        "models": model_table(results),
+        "misses": problem_table(results),
+        "cases": full_table(results),
+    }
+
+
+def update_page(sections: dict[str, str]) -> None:
+    """Put the tables between the marks of the page."""
+    text = PAGE.read_text(encoding="utf-8")
+    for name, table in sections.items():
+        begin, end = f"<!-- begin {name} -->\n", f"<!-- end {name} -->"
+        before, rest = text.split(begin, 1)
+        text = before + begin + table + end + rest.split(end, 1)[1]
+    PAGE.write_text(text, encoding="utf-8")
 
 
 def parse() -> argparse.Namespace:

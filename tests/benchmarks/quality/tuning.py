@@ -53,7 +53,7 @@ def tune(method: Baseline, case: Case, is_full: bool | None = None) -> Found:
                 since += 1
                 if best is None or measured.angle < best.measured.angle:
                     best, since = Found(reading, measured, 0), 0
-                if since >= method.patience:
+                if since >= method.patience_on(case):
                     break
             best_of[k] = best
         return best_of[k].measured.angle

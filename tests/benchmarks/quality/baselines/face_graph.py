@@ -70,6 +70,14 @@ class FaceGraph:
         self._surface = surface
 
     @cached_property
+    def table(self):
+        """Corners of the faces, shape (k, F), if all have the same number k; else None."""
+        size = int(self.sizes[0])
+        if (self.sizes != size).any():
+            return None
+        return np.ascontiguousarray(self.corners.items.reshape(-1, size).T)
+
+    @cached_property
     def at_vertex(self):
         """Vertices that have faces, shape (V,), and the faces at each of them as rows."""
         face = np.repeat(np.arange(self.n_faces, dtype=np.int32), self.sizes)

@@ -24,11 +24,14 @@ def take(values, index):
 
 def centroids_of(points, graph):
     """Return the mean of the corners of each face, shape (3, F)."""
-    corners = take(points, graph.corners.items)
-    size = int(graph.sizes[0])
-    if (graph.sizes == size).all():
-        return corners.reshape(3, -1, size).sum(axis=2) / points.dtype.type(size)
-    return graph.corners.reduce(np.add, corners) / graph.sizes.astype(points.dtype)
+    if graph.table is None:
+        sums = graph.corners.reduce(np.add, take(points, graph.corners.items))
+        return sums / graph.sizes.astype(points.dtype)
+    sums = take(points, graph.table[0])
+    for column in graph.table[1:]:
+        sums += take(points, column)
+    sums *= points.dtype.type(1.0 / len(graph.table))
+    return sums
 
 
 def normals_and_areas(points, graph):
@@ -83,10 +86,17 @@ def update_vertices(points, normals, graph, steps):
     share = (1.0 / faces.counts).astype(points.dtype)
     points = points.copy()
     owner = np.repeat(used, faces.counts)
+    is_all_used = len(used) == points.shape[1]
     for _ in range(steps):
         arm = take(centroids_of(points, graph), faces.items)
         arm -= take(points, owner)
         arm *= normal
         height = arm[0] + arm[1] + arm[2]
-        points[:, used] += faces.reduce(np.add, normal * height) * share
+        np.multiply(normal, height, out=arm)
+        step = faces.reduce(np.add, arm)
+        step *= share
+        if is_all_used:
+            points += step
+        else:
+            points[:, used] += step
     return points
