@@ -3,7 +3,7 @@
 """What is denoised: a model, a noise and a seed."""
 
 import os
-from functools import cached_property, lru_cache
+from functools import cache, cached_property, lru_cache
 from pathlib import Path
 from typing import NamedTuple
 
@@ -74,11 +74,6 @@ class Model:
 
         return FaceGraph(self.clean)
 
-    @property
-    def is_quad(self) -> bool:
-        """True for a mesh with quads."""
-        return bool((self.clean.face_sizes() > 3).any())
-
 
 class Case:
     """A noisy mesh with its clean partner."""
@@ -139,6 +134,12 @@ def load_clean(name: str) -> SurfaceMesh:
         mesh = made[name]()
         return mesh.with_vertices(mesh.vertices.astype(np.float32))
     return read_mesh(mesh_folder() / f"{name}.ply")
+
+
+@cache
+def has_quads(name: str) -> bool:
+    """Tell whether a model has quads."""
+    return bool((load_clean(name).face_sizes() > 3).any())
 
 
 @lru_cache(maxsize=1)

@@ -74,8 +74,6 @@ def _run(case: Case, name: str, choice: str, tuned: str | None) -> Iterator[Row]
         yield _row(case, NOISY, choice, "", case.measure(case.noisy.vertices), 0.0, 1)
         return
     method = METHODS[name]
-    if not method.serves(case):
-        return
     if choice == "best" and case.name.seed == TUNING_SEED:
         found = tune(method, case)
         yield _row_of(case, name, choice, found.reading, found.measured, found.n_tried)
@@ -92,9 +90,7 @@ def _run(case: Case, name: str, choice: str, tuned: str | None) -> Iterator[Row]
     yield _row_of(case, name, choice, reading, case.measure(reading.positions), 1)
 
 
-def _row_of(
-    case: Case, name: str, choice: str, reading: Reading, measured: Measurement, n_tried: int
-) -> Row:
+def _row_of(case: Case, name: str, choice: str, reading: Reading, measured: Measurement, n_tried: int) -> Row:
     return _row(case, name, choice, written_settings(reading.settings), measured, reading.seconds, n_tried)
 
 

@@ -40,9 +40,9 @@ class Preset:
         """Tell whether the method can run here."""
         return True
 
-    def serves(self, case: Case) -> bool:
-        """Tell whether the preset is for the faces of a model."""
-        kind = "TRI_" if case.model.is_quad else "QUAD_"
+    def serves(self, is_quad: bool) -> bool:
+        """Tell whether the preset is for models of quads, or of triangles."""
+        kind = "TRI_" if is_quad else "QUAD_"
         return not self.name.startswith(kind)
 
     def run(self, case: Case, settings: Settings) -> Reading:
@@ -57,8 +57,8 @@ class Preset:
 class Baseline:
     """A published method with a default and a grid.
 
-    The grid is made of `values` of one setting, the `knob`, from low to high, and of readings for each: results at
-    several numbers of iterations, which one run yields one after the other.
+    The grid is made of `values` of one setting, the `knob`, from low to high, and of readings for each:
+    results at several numbers of iterations, which one run yields one after the other.
     """
 
     name: str
@@ -71,9 +71,9 @@ class Baseline:
         """Tell whether the method can run here."""
         return True
 
-    def serves(self, case: Case) -> bool:
-        """Tell whether the method can run on a case."""
-        return self.is_available()
+    def serves(self, is_quad: bool) -> bool:
+        """Tell whether the method is for models of quads, or of triangles."""
+        return True
 
     def patience_on(self, case: Case) -> int:
         """Return the readings without improvement after which a run on a case is given up."""

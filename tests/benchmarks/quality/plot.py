@@ -14,14 +14,17 @@ from results import AUTO, Results, geometric_mean
 from tables import GOAL_TUNED, LIMIT_TUNED
 
 matplotlib.use("Agg")
-from matplotlib import pyplot as plt  # noqa: E402
-from matplotlib.ticker import NullFormatter, ScalarFormatter  # noqa: E402
+from matplotlib import pyplot as plt
+from matplotlib.ticker import NullFormatter, ScalarFormatter
 
 NOISE_STYLES = dict(
     zip(
         NOISES,
-        [("#c6dbef", "o"), ("#9ecae1", "o"), ("#6baed6", "o"), ("#3182bd", "o"), ("#08519c", "o")]
-        + [("#e6842a", "s"), ("#3a9a4b", "^")],
+        (
+            *((blue, "o") for blue in ("#c6dbef", "#9ecae1", "#6baed6", "#3182bd", "#08519c")),
+            ("#e6842a", "s"),
+            ("#3a9a4b", "^"),
+        ),
         strict=True,
     )
 )
@@ -47,7 +50,7 @@ def draw(results: Results, path: Path) -> None:
 
 def _draw_ratios(axes, results: Results) -> None:
     """Draw AUTO's angle over that of the best tuned baseline, a mark for each model and noise."""
-    models = sorted({case.model for case in results.cases}, key=lambda name: (name not in DEVELOPMENT, name))
+    models = results.models
     n_development = sum(model in DEVELOPMENT for model in models)
     for number, (noise, (color, marker)) in enumerate(NOISE_STYLES.items()):
         places, ratios = [], []
@@ -56,7 +59,9 @@ def _draw_ratios(axes, results: Results) -> None:
             if cases:
                 places.append(place + 0.1 * (number - 3))
                 ratios.append(geometric_mean(results.ratio(case, "best") for case in cases))
-        axes.scatter(places, ratios, s=28, c=color, marker=marker, edgecolors="#333", linewidths=0.4, label=noise)
+        axes.scatter(
+            places, ratios, s=28, c=color, marker=marker, edgecolors="#333", linewidths=0.4, label=noise
+        )
     axes.axhline(1.0, color="#333", linewidth=0.8)
     for level in (GOAL_TUNED, LIMIT_TUNED):
         axes.axhline(level, color="#c0392b", linewidth=0.8, linestyle="--")
@@ -69,7 +74,7 @@ def _draw_ratios(axes, results: Results) -> None:
     axes.yaxis.set_minor_formatter(NullFormatter())
     axes.set_yticks([0.5, 0.7, 0.9, 1.0, 1.1, 1.4, 2.0])
     axes.set_ylabel("angle of AUTO / best tuned baseline")
-    axes.set_title("Below 1 AUTO is better than every baseline tuned with the clean model (* development set)")
+    axes.set_title("Below 1: better than every baseline tuned with the clean model (* development set)")
     axes.grid(axis="y", alpha=0.3)
     axes.legend(ncols=7, fontsize=8, loc="upper left")
 

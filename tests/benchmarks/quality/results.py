@@ -39,6 +39,11 @@ class Results:
         noises = list(NOISES)
         self.cases = sorted(complete, key=lambda case: (case.model, noises.index(case.noise), case.seed))
 
+    @property
+    def models(self) -> list[str]:
+        """Names of the models, those of the development set first."""
+        return sorted({case.model for case in self.cases}, key=lambda name: (name not in DEVELOPMENT, name))
+
     def find(self, case: CaseName, method: str, choice: str = "default") -> Row | None:
         """Return a row, None if there is none."""
         return self._by_key.get((case, method, choice))

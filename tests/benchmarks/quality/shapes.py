@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Clean models made in code, where the shared meshes are missing, and for quick runs.
 
-The development meshes have organic models; here a sphere with bumps takes their place, because Blender's monkey
-would need the module bpy.
+A sphere with bumps stands for organic models, because Blender's monkey would need the module bpy.
 """
 
 import numpy as np
@@ -31,8 +30,9 @@ def gear(teeth=12, columns_per_tooth=14):
     outer = 1.0 + 0.12 * np.clip(2.5 * np.sin(teeth * angle + 0.1), -1.0, 1.0)
     flat, wall = 12, 6
     # Around a cut through the rim: up the hole, outwards, down the teeth, inwards.
-    across = np.concatenate((np.zeros(wall), np.arange(flat) / flat, np.ones(wall), 1 - np.arange(flat) / flat))
-    height = np.concatenate((np.arange(wall) / wall, np.ones(flat), 1 - np.arange(wall) / wall, np.zeros(flat)))
+    rise, run = np.arange(wall) / wall, np.arange(flat) / flat
+    across = np.concatenate((np.zeros(wall), run, np.ones(wall), 1 - run))
+    height = np.concatenate((rise, np.ones(flat), 1 - rise, np.zeros(flat)))
     radius = 0.5 + across[:, None] * (outer[None, :] - 0.5)
     z = np.repeat(0.3 * height, columns).reshape(radius.shape)
     points = np.stack((radius * np.cos(angle), radius * np.sin(angle), z), -1).reshape(-1, 3)
@@ -40,7 +40,7 @@ def gear(teeth=12, columns_per_tooth=14):
     number = np.arange(rows * columns).reshape(rows, columns)
     down, right = np.roll(number, -1, axis=0), np.roll(number, -1, axis=1)
     faces = np.stack((number, down, np.roll(down, -1, axis=1), right), -1).reshape(-1, 4)
-    return SurfaceMesh.from_faces(points, faces[:, ::-1])
+    return SurfaceMesh.from_faces(points, faces)
 
 
 MADE = {

@@ -6,9 +6,9 @@ from collections.abc import Iterable
 from pathlib import Path
 
 import sources  # noqa: F401
-from cases import CaseName
+from cases import CaseName, has_quads
 from measuring import NOISY, Row, Task, wanted_of, written_settings
-from methods import BASELINES, FRAMELET
+from methods import BASELINES, FRAMELET, METHODS
 from records import read_records, write_records
 
 FILES = {"baselines.csv": [NOISY, *BASELINES], "presets.csv": list(FRAMELET)}
@@ -73,10 +73,12 @@ class Store:
     def task(self, case: CaseName, methods: Iterable[str]) -> Task | None:
         """Return what is missing of a case; None if nothing is.
 
-        A preset whose settings have changed since is missing too.
+        A preset whose settings have changed since is missing too, methods that cannot run are not.
         """
         missing, tuned = [], []
-        for name, choice in wanted_of(methods):
+        is_quad = has_quads(case.model)
+        served = [name for name in methods if METHODS[name].is_available() and METHODS[name].serves(is_quad)]
+        for name, choice in wanted_of(served):
             row = self._rows.get((case, name, choice))
             is_old = (
                 row is not None

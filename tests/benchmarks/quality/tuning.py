@@ -25,9 +25,9 @@ class Found(NamedTuple):
 def tune(method: Baseline, case: Case, is_full: bool | None = None) -> Found:
     """Return the reading of a baseline with the smallest angle, the default's included.
 
-    On small models every value of the knob is tried. On others the search starts in the middle and walks to lower
-    and to higher values as long as the angle falls; on large ones it skips every second value. In a run with one
-    value, readings stop after a number without improvement, the method's patience.
+    On small models every value of the knob is tried. On others the search starts in the middle and walks to
+    lower and to higher values as long as the angle falls; on large ones it skips every second value. In a run
+    with one value, readings stop after a number without improvement, the method's patience.
 
     Parameters
     ----------

@@ -15,9 +15,9 @@ VERTEX_ITERATIONS = 10
 def filtered_normals(points, graph, sigma_s, iterations):
     """Yield the normals after each of some numbers of iterations.
 
-    n_f <- normalize(sum over g of a_g Wc(|c_f - c_g|) Ws(|n_f - n_g|) n_g), over the faces that share a vertex
-    with f and f itself. Areas and centroids are those of the noisy mesh; Wc and Ws are Gaussians, Wc as wide as
-    the mean distance of the centroids of adjacent faces.
+    n_f <- normalize(sum over g of a_g Wc(|c_f - c_g|) Ws(|n_f - n_g|) n_g), over the faces that share a
+    vertex with f and f itself. Areas and centroids are those of the noisy mesh; Wc and Ws are Gaussians, Wc
+    as wide as the mean distance of the centroids of adjacent faces.
 
     Parameters
     ----------

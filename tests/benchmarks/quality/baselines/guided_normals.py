@@ -28,8 +28,9 @@ EPSILON = 1e-9
 def filtered_positions(points, graph, sigma_r, iterations, vertex_iterations=VERTEX_ITERATIONS):
     """Yield the positions after each of some numbers of iterations.
 
-    An iteration finds guidance normals, takes the joint bilateral means of the normals of the surface as it is,
-    n_f <- normalize(sum over g of a_g Wc(|c_f - c_g|) Ws(|guide_f - guide_g|) n_g), and moves the vertices.
+    An iteration finds guidance normals, takes the joint bilateral means of the normals of the surface as it
+    is, n_f <- normalize(sum over g of a_g Wc(|c_f - c_g|) Ws(|guide_f - guide_g|) n_g), and moves the
+    vertices.
 
     Parameters
     ----------
@@ -65,8 +66,8 @@ def filtered_positions(points, graph, sigma_r, iterations, vertex_iterations=VER
 def faces_within(points, graph):
     """Return the faces of two rings whose centroids lie within the radius around each face, itself included.
 
-    The paper goes on along the surface as far as the radius reaches. Where faces are much smaller than the mean
-    that is more than two rings; the limit keeps the cost within bounds.
+    The paper goes on along the surface as far as the radius reaches. Where faces are much smaller than the
+    mean that is more than two rings; the limit keeps the cost within bounds.
     """
     centroids = centroids_of(points, graph)
     radius = RADIUS * mean_centroid_distance(centroids, graph)
@@ -93,8 +94,8 @@ def guidance(normals, areas, graph):
 def consistency(normals, graph):
     """Return H = D R of each patch, shape (F,); low where the normals of a patch agree.
 
-    D is the largest difference of two normals of the patch, R the largest difference across an inner edge of the
-    patch over the sum of all such differences.
+    D is the largest difference of two normals of the patch, R the largest difference across an inner edge of
+    the patch over the sum of all such differences.
     """
     pairs, of_patch = graph.patch_pairs
     first, second = take(normals, pairs[0]), take(normals, pairs[1])

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Normals, areas and centroids of faces, and the vertex update, on coordinates in rows."""
 
+from itertools import pairwise
+
 import numpy as np
 
 
@@ -43,7 +45,7 @@ def normals_and_areas(points, graph):
         faces = np.flatnonzero(sizes == size)
         corners = [take(points, graph.corners.items[begin[faces] + k]) for k in range(size)]
         arms = [corner - corners[0] for corner in corners[1:]]
-        for first, second in zip(arms[:-1], arms[1:], strict=True):
+        for first, second in pairwise(arms):
             vectors[:, faces] += _cross(first, second)
     return unit(vectors, np.zeros_like(vectors)), np.sqrt(squares(vectors)) / points.dtype.type(2)
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Taubin's smoothing (SIGGRAPH 1995), as the library trimesh has it; only the benchmark's environment has trimesh."""
+"""Taubin's smoothing (SIGGRAPH 1995), as trimesh has it, which the environment of benchmarks has."""
 
 from importlib.util import find_spec
 
@@ -15,8 +15,8 @@ def is_installed():
 class Smoother:
     """Runs `trimesh.smoothing.filter_taubin` on a mesh of any polygons.
 
-    trimesh knows triangles only. The smoothing needs positions and a matrix of neighbors alone, so that for other
-    polygons it is given the means over their edges.
+    trimesh knows triangles only. The smoothing needs positions and a matrix of neighbors alone, so that for
+    other polygons it is given the means over their edges.
 
     Parameters
     ----------
