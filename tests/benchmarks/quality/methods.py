@@ -99,8 +99,8 @@ class BilateralNormals(Baseline):
         "vertex_iterations": bilateral_normals.VERTEX_ITERATIONS,
     }
     knob = "sigma_s"
-    values = (0.15, 0.2, 0.25, 0.3, 0.35, 0.42, 0.5, 0.6, 0.8)
-    normal_iterations = (1, 2, 5, 10, 20, 40, 80)
+    values = (0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5, 0.55, 0.6, 0.7, 0.8)
+    normal_iterations = (1, 2, 5, 10, 14, 20, 28, 40, 80)
     vertex_iterations = (5, 10, 20, 40)
     fewer_vertex_iterations = (10, 20)
 

@@ -49,24 +49,30 @@ def main() -> int:
         say("There are no development meshes; models are made in code.")
     store = Store(folder)
     if not arguments.tables:
-        store.forget(arguments.rerun)
+        cases = cases_of(names, arguments)
+        store.forget(arguments.rerun, cases)
         methods = arguments.methods or list(METHODS)
         for method in METHODS.values():
             if method.name in methods and not method.is_available():
                 say(f"{method.name} is left out: its library is not installed here.")
-        run_missing(store, names, methods, arguments)
+        run_missing(store, cases, methods, arguments.processes)
     write_results(store, folder, is_for_docs=arguments.update)
     return 0
 
 
-def run_missing(store: Store, names: list[str], methods: list[str], arguments: argparse.Namespace) -> None:
-    """Run what the store does not have; seed by seed, so that tuned settings come before they are needed."""
+def cases_of(names: list[str], arguments: argparse.Namespace) -> list[CaseName]:
+    """Return the cases that are wanted, seed by seed: tuned settings come before they are needed."""
     noises = arguments.noises or (QUICK_NOISES if arguments.quick else list(NOISES))
+    seeds = arguments.seeds or (SEEDS[:2] if arguments.quick else SEEDS)
+    return [CaseName(name, noise, seed) for seed in sorted(seeds) for name in names for noise in noises]
+
+
+def run_missing(store: Store, cases: list[CaseName], methods: list[str], n_processes: int) -> None:
+    """Run what the store does not have."""
     began = perf_counter()
-    for seed in sorted(arguments.seeds or (SEEDS[:2] if arguments.quick else SEEDS)):
-        cases = [CaseName(name, noise, seed) for name in names for noise in noises]
-        tasks = [task for case in cases if (task := store.task(case, methods))]
-        for number, (task, rows) in enumerate(run_tasks(tasks, arguments.processes), 1):
+    for seed in dict.fromkeys(case.seed for case in cases):
+        tasks = [task for case in cases if case.seed == seed and (task := store.task(case, methods))]
+        for number, (task, rows) in enumerate(run_tasks(tasks, n_processes), 1):
             store.add(rows)
             case = task.case
             say(

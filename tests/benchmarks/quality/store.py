@@ -37,11 +37,13 @@ class Store:
         """All rows, in order."""
         return sorted(self._rows.values(), key=lambda row: row.key)
 
-    def forget(self, methods: Iterable[str]) -> None:
-        """Drop the rows of some methods."""
-        dropped = set(methods)
-        self._forgotten |= {key for key, row in self._rows.items() if row.method in dropped}
-        self._rows = {key: row for key, row in self._rows.items() if row.method not in dropped}
+    def forget(self, methods: Iterable[str], cases: Iterable[CaseName]) -> None:
+        """Drop the rows of some methods on some cases."""
+        names, places = set(methods), set(cases)
+        dropped = {key for key, row in self._rows.items() if row.method in names and row.case in places}
+        self._forgotten |= dropped
+        for key in dropped:
+            del self._rows[key]
 
     def _read(self, name: str) -> list[Row]:
         """Return the rows of a file; none if there is no file."""

@@ -196,8 +196,8 @@ def test_guided_normals_twin(kind, rough):
     assert np.abs(found.T - slow_guided(mesh, 0.35, n, 3)).max() < 1e-9
 
 
-def test_filters_of_normals_reach_published_figures(shared_meshes):
-    # Mean angles in degrees of the best tuned filters, as published: 2.22 and 2.10.
+def test_filters_of_normals_reach_known_figures(shared_meshes):
+    # Other implementations of the two filters, tuned, reached 2.22 and 2.10 degrees.
     clean = read_mesh(shared_meshes / "tri" / "fandisk.ply")
     case = Case(CaseName("tri/fandisk", "normal 0.2", 0), Model("tri/fandisk", clean))
     bilateral = {"sigma_s": 0.35, "normal_iterations": 20, "vertex_iterations": 10}
@@ -341,10 +341,10 @@ def test_store_goes_on_where_a_run_stopped(tmp_path):
     Store(tmp_path).add(changed)
     assert Store(tmp_path).task(case, methods).wanted == (("QUAD_2", "default"),)
     store = Store(tmp_path)
-    store.forget(["LBNF"])
+    store.forget(["LBNF"], [case])
     assert ("LBNF", "best") in store.task(case, methods).wanted
     store.write("baselines.csv")
-    assert not any(row.method == "LBNF" for row in Store(tmp_path).rows)
+    assert not any((row.method, row.seed) == ("LBNF", 0) for row in Store(tmp_path).rows)
 
 
 def test_tuned_is_never_worse_than_default_and_reruns_alike():
