@@ -72,11 +72,15 @@ def _draw_ratios(axes, results: Results) -> None:
     axes.set_yscale("log")
     axes.yaxis.set_major_formatter(ScalarFormatter())
     axes.yaxis.set_minor_formatter(NullFormatter())
-    axes.set_yticks([0.5, 0.7, 0.9, 1.0, 1.1, 1.4, 2.0])
+    axes.set_yticks([0.5, 0.7, 0.9, 1.0, 1.1, 1.4, 2.0, 3.0])
     axes.set_ylabel("angle of AUTO / best tuned baseline")
     axes.set_title("Below 1: better than every baseline tuned with the clean model (* development set)")
     axes.grid(axis="y", alpha=0.3)
-    axes.legend(ncols=7, fontsize=8, loc="upper left")
+    axes.legend(ncols=7, fontsize=8, loc="lower right")
+    low, high = axes.get_ylim()
+    axes.set_ylim(0.8 * low, 1.1 * high)  # room for the legend
+    axes.set_xlim(-0.6, len(models) - 0.4)
+    axes.set_axisbelow(True)
 
 
 def _draw_angles(axes, results: Results) -> None:
@@ -94,5 +98,6 @@ def _draw_angles(axes, results: Results) -> None:
             axes.bar(places, heights, 0.9 * width, color=color, alpha=0.35 if is_pale else 1.0, label=label)
     axes.set_xticks(range(len(NOISES)), list(NOISES))
     axes.set_ylabel("angle in degrees, geometric mean")
-    axes.legend(ncols=5, fontsize=8)
+    axes.legend(ncols=1, fontsize=8, loc="center left", bbox_to_anchor=(1.0, 0.5))
     axes.grid(axis="y", alpha=0.3)
+    axes.set_axisbelow(True)

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The rows on disk: a run that was killed goes on where it stopped."""
 
+import os
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -28,7 +29,8 @@ class Store:
         self.folder = folder
         folder.mkdir(parents=True, exist_ok=True)
         self._rows: dict[tuple, Row] = {}
-        self._forgotten: set[tuple] = set()
+        # What this run has added or dropped; about everything else the files know better.
+        self._own: set[tuple] = set()
         for name in FILES:
             self._rows.update((row.key, row) for row in self._read(name))
 
@@ -41,7 +43,7 @@ class Store:
         """Drop the rows of some methods on some cases."""
         names, places = set(methods), set(cases)
         dropped = {key for key, row in self._rows.items() if row.method in names and row.case in places}
-        self._forgotten |= dropped
+        self._own |= dropped
         for key in dropped:
             del self._rows[key]
 
@@ -54,6 +56,7 @@ class Store:
         """Keep rows, on disk too."""
         rows = list(rows)
         self._rows.update((row.key, row) for row in rows)
+        self._own.update(row.key for row in rows)
         for name, methods in FILES.items():
             if any(row.method in methods for row in rows):
                 self.write(name)
@@ -61,14 +64,14 @@ class Store:
     def write(self, name: str) -> None:
         """Write a file whole, so that a run that is killed leaves the old one or the new one.
 
-        Rows that another run has added since are kept.
+        What another run has changed since is kept.
         """
-        for row in self._read(name):
-            if row.key not in self._forgotten:
-                self._rows.setdefault(row.key, row)
-        rows = [row for row in self.rows if row.method in FILES[name]]
+        on_disk = [row for row in self._read(name) if row.key not in self._own]
+        own = [row for key, row in self._rows.items() if key in self._own and row.method in FILES[name]]
+        self._rows.update((row.key, row) for row in on_disk)
+        rows = sorted([*on_disk, *own], key=lambda row: row.key)
         if rows:
-            unfinished = self.folder / f"{name}.part"
+            unfinished = self.folder / f"{name}.{os.getpid()}.part"
             write_records(rows, unfinished)
             unfinished.replace(self.folder / name)
 
