@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,14 +26,18 @@ LEAST_RISK = 0.05
 """In units of the variance of the noise; smaller risks count as this one, as the estimate is not that exact."""
 
 
-def choose_recipe(
+N_PROBES = (4, 8000)
+"""Most probes, and the number of faces that one probe suffices for: small meshes need several."""
+
+
+def choose_recipes(
     noisy: NDArray[np.floating],
     surface: SurfaceMesh,
     sigma: float,
     blocks: Blocks,
-    tick: Callable[[], None] = lambda: None,
-) -> Recipe:
-    """Try all recipes on parts of a mesh and return the best one.
+    tick: Callable[[float], None] = lambda _: None,
+) -> tuple[Recipe, ...]:
+    """Try all recipes on parts of a mesh and return the best one, or the best two to be averaged.
 
     Parameters
     ----------
@@ -45,18 +50,22 @@ def choose_recipe(
     blocks : Blocks
         Threads to work on.
     tick : callable, optional
-        Called after each of twice as many runs as there are recipes.
+        Called after each run with the share of the work that it was.
 
     Returns
     -------
-    Recipe
+    tuple of Recipe
+        One or two.
 
     Notes
     -----
     Stein's estimate of the mean squared error (Ramani, Blu, Unser 2008), for displacements q along the
-    normals of the noisy mesh: mean(q^2) - sigma^2 + 2 sigma^2 mean(b dq / eps), where dq is how q changes
-    when the vertices move by eps b, b = +-1. It is multiplied by the square of the mean difference of
+    normals of the noisy mesh: mean(q^2) - sigma^2 + 2 sigma^2 mean(b dr / eps), where dr is how the result
+    changes when the vertices move by eps b, b = +-1. It is multiplied by the square of the mean difference of
     adjacent normals, as the error of positions says little about roughness, which is what people see.
+
+    Two estimates whose errors differ are better on average than each of them. The risk of a mean of two
+    results needs no further run.
     """
     part = trial_part(noisy, surface)
     points = np.ascontiguousarray(noisy[:, part.vertices])
@@ -64,30 +73,39 @@ def choose_recipe(
     at_vertex = faces_of_vertices(part.surface)
     directions = vertex_means(normals_of(points, part.surface), at_vertex)
     directions = unit_columns(directions, np.zeros_like(directions))
-    # Signs and the sample of the noise are digits of different places of the same number.
-    signs = np.where(scrambled(points, part.surface, at_vertex, sigma, 1009.0) < 0.5, -1, 1)
-    signs = signs.astype(noisy.dtype)
-    sample = unit_noise(scrambled(points, part.surface, at_vertex, sigma, 64.0))
-    step = noisy.dtype.type(PROBE)
-    probed = points + step * signs * directions
-    problem, other = (
-        NormalProblem(at, part.surface, connectivity, sigma, blocks, sample) for at in (points, probed)
-    )
-    other.unit = problem.unit
     counted = part.counts & directions.any(axis=0)
-    risks, roughness = [], []
+    if not counted.any():
+        return (RECIPES[0],)
+    sample = unit_noise(scrambled(points, part.surface, at_vertex, sigma, 64.0))
+    problem = NormalProblem(points, part.surface, connectivity, sigma, blocks, sample)
+    n_probes = min(N_PROBES[0], -(-N_PROBES[1] // part.surface.n_faces))
+    share = 1.0 / ((1 + n_probes) * len(RECIPES))
+    results, divergences = [], np.zeros(len(RECIPES))
     for recipe in RECIPES:
-        result = problem.run(recipe)
-        tick()
-        moved = other.run(recipe)
-        tick()
+        results.append(problem.run(recipe))
+        tick(share)
+    for probe in range(n_probes):
+        # Signs and the sample of the noise are digits of different places of the same number.
+        number = scrambled(points, part.surface, at_vertex, sigma, 1009.0 - 101.0 * probe)
+        signs = np.where(number < 0.5, -1, 1).astype(noisy.dtype)
+        probed = points + noisy.dtype.type(PROBE) * signs * directions
+        other = NormalProblem(probed, part.surface, connectivity, sigma, blocks, sample)
+        other.unit = problem.unit
+        for index, recipe in enumerate(RECIPES):
+            change = np.einsum("cn,cn->n", other.run(recipe) - results[index], directions)
+            divergences[index] += float(np.mean(signs[counted] * change[counted], dtype=np.float64)) / PROBE
+            tick(share)
+    divergences /= n_probes
+    choices = [(index,) for index in range(len(RECIPES))]
+    choices += list(combinations(range(len(RECIPES)), 2))
+    risks, roughness = [], []
+    for choice in choices:
+        result = results[choice[0]] if len(choice) == 1 else 0.5 * (results[choice[0]] + results[choice[1]])
         q = np.einsum("cn,cn->n", result - points, directions)[counted].astype(np.float64)
-        change = np.einsum("cn,cn->n", moved - result, directions)[counted].astype(np.float64)
-        divergence = float((signs[counted] * change).mean()) / PROBE if len(q) else 0.0
-        # Both sides hold q = result - points, whose own divergence is that of the result less 1.
-        risks.append(float((q * q).mean() if len(q) else 0.0) - sigma**2 + 2.0 * sigma**2 * divergence)
+        divergence = float(np.mean(divergences[list(choice)]))
+        risks.append(float(np.mean(q * q)) - sigma**2 + 2.0 * sigma**2 * divergence)
         roughness.append(_roughness(result, problem))
-    return RECIPES[_best(risks, roughness, sigma)]
+    return tuple(RECIPES[index] for index in choices[_best(risks, roughness, sigma)])
 
 
 def _roughness(points: NDArray[np.floating], problem: NormalProblem) -> float:

@@ -16,8 +16,8 @@ from ..noise import NoiseEstimate, estimate_noise
 from ..settings import DenoiseSettings
 from ..surface.connectivity import Connectivity
 from ..surface.surface_mesh import SurfaceMesh
-from .choose import choose_recipe
-from .recipes import RECIPES, NormalProblem, n_ticks
+from .choose import choose_recipes
+from .recipes import NormalProblem, n_ticks
 
 LEAST_NOISE = 0.004
 """Noise in mean edge lengths below which a mesh counts as clean and is left alone."""
@@ -91,12 +91,13 @@ def automatic_filter(
             raise _Stopped
 
     try:
-        recipe = choose_recipe(
-            noisy, surface, sigma, blocks, lambda: advance(CHOOSING_SHARE / (2 * len(RECIPES)))
+        recipes = choose_recipes(
+            noisy, surface, sigma, blocks, lambda share: advance(CHOOSING_SHARE * share)
         )
-        step = (1.0 - CHOOSING_SHARE) / n_ticks(recipe)
+        step = (1.0 - CHOOSING_SHARE) / sum(map(n_ticks, recipes))
         problem = NormalProblem(noisy, surface, connectivity, sigma, blocks)
-        points = problem.run(recipe, constraints, lambda change: advance(step, change))
+        points = problem.run_all(recipes, constraints, lambda change: advance(step, change))
     except _Stopped:
         return Automatic(noisy, 0, True, noise, "")
-    return Automatic(points, recipe.vertex_steps, False, noise, recipe.label)
+    label = " and ".join(recipe.label for recipe in recipes)
+    return Automatic(points, max(recipe.vertex_steps for recipe in recipes), False, noise, label)

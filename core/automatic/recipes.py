@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -46,7 +46,7 @@ RECIPES = (
     Recipe("Flat and sharp", 0.12, (0.4, 0.3), 1.5, 6, 40),
     Recipe("Smooth and even", 0.12, (0.35, 0.25), 4.0, 6, 40),
     Recipe("Sharp and coarse", 0.05, (0.5, 0.3), 1.5, 6, 25),
-    Recipe("Round with edges", 0.1, (0.5, 0.5), 1.5, 5, 15),
+    Recipe("Round with edges", 0.12, (0.5, 0.5), 1.5, 5, 15),
     Recipe("Soft", 0.12, (0.8, 0.6), 1.5, 4, 12),
     Recipe("Fine relief", 0.12, (1.2, 1.2), 1.5, 4, 8),
     *(Recipe(f"Smooth and coarse {k}", n_averages=k) for k in (2, 4, 8, 16, 32)),
@@ -177,6 +177,18 @@ class NormalProblem:
             normals = self._normals_around(points)
         points = unfold(points, normals, self.surface, self._ring_mean)
         if constraints is not None:
+            constraints.apply(points, self.noisy)
+        return points
+
+    def run_all(
+        self, recipes: Sequence[Recipe], constraints: Constraints, tick: Tick = lambda _: None
+    ) -> NDArray[np.floating]:
+        """Return the mean, shape (3, N), of what recipes give."""
+        points = self.run(recipes[0], constraints, tick)
+        if len(recipes) > 1:
+            points = sum((self.run(recipe, constraints, tick) for recipe in recipes[1:]), points)
+            points = points / points.dtype.type(len(recipes))
+            points = unfold(points, self._normals_around(points), self.surface, self._ring_mean)
             constraints.apply(points, self.noisy)
         return points
 
