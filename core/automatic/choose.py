@@ -22,7 +22,7 @@ from .recipes import RECIPES, NormalProblem, Recipe, unit_noise
 PROBE = 0.01
 """How far vertices are moved, in mean edge lengths, to see how much a result follows the noise."""
 
-LEAST_RISK = 0.05
+LEAST_RISK = 0.03
 """In units of the variance of the noise; smaller risks count as this one, as the estimate is not that exact."""
 
 

@@ -19,7 +19,8 @@ from ..normals.folds import unfold
 from ..normals.neighbors import edge_neighbors, faces_of_vertices
 from ..normals.noise_sample import area_vectors, noise_in_normals, normals_of, scrambled, vertex_means
 from ..normals.pilot import ITERATIONS, median_difference, pilot_normals, unit_columns
-from ..normals.vertex_update import face_centroids, update_vertices
+from ..normals.vertex_fit import VertexFit
+from ..normals.vertex_update import face_centroids
 from ..surface.connectivity import Connectivity
 from ..surface.surface_mesh import SurfaceMesh
 from .smooth_positions import RingAverages, smooth_positions
@@ -109,6 +110,7 @@ class NormalProblem:
         )
         little = noise_in_normals(noisy, TINY_STEP * sigma * sample, surface, self.at_vertex, blocks)
         self.unit = median_difference(little, self.neighbors) / TINY_STEP
+        self.fit = VertexFit(surface, self.at_vertex, blocks)
         self.rings = RingAverages(connectivity, blocks)
         self._pilots: dict[float, NDArray[np.floating]] = {}
 
@@ -153,16 +155,17 @@ class NormalProblem:
         tick: Tick | None = None,
     ) -> NDArray[np.floating]:
         """Return positions, shape (3, N), whose faces have the wanted normals as far as possible."""
-        points = self.noisy
+        steps = self.fit.steps(self.noisy, normals)
+        displacement = np.zeros_like(self.noisy)
         for _ in range(n_steps):
-            moved = update_vertices(points, normals, self.surface, self.at_vertex, self.blocks)
+            before, displacement = displacement, steps.advance(displacement)
             if constraints is not None:
-                constraints.apply(moved, self.noisy)
-            change = rms_motion(moved, points, self.blocks) if tick is not None else 0.0
-            points = moved
+                points = self.noisy + displacement
+                constraints.apply(points, self.noisy)
+                displacement = points - self.noisy
             if tick is not None:
-                tick(change)
-        return points
+                tick(rms_motion(displacement, before, self.blocks))
+        return self.noisy + displacement
 
     def run(
         self, recipe: Recipe, constraints: Constraints | None = None, tick: Tick = lambda _: None

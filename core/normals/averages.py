@@ -70,8 +70,8 @@ class Averages:
         return self._blocks.run(kernel, self._n)
 
     def average(self, weights: Weights, field: NDArray[np.floating]) -> NDArray[np.floating]:
-        """Return the averages, shape (n, C), of a field (n, C); items without members keep their value."""
-        result = field.copy()
+        """Return the averages, shape (n, C), of a field on what the members are; zero without members."""
+        result = np.zeros((self._n, field.shape[1]), field.dtype)
 
         def kernel(start: int, _: int) -> None:
             index = start // self._blocks.block_size
