@@ -13,6 +13,8 @@ from .setting_values import CUSTOM, DEFINING, FRAME_NAMES, follow_preset, leave_
 FIELDS = {item.name: item for item in fields(DenoiseSettings)}
 """The settings by name."""
 
+_DEFAULTS = PRESETS[DEFAULT_PRESET].settings
+
 
 def _preset_property() -> Any:
     """Return the property that names a preset."""
@@ -34,7 +36,7 @@ def setting_property(item: Field, **options: Any) -> Any:
     common: dict[str, Any] = {
         "name": f"{info.label} {info.symbol}".strip(),
         "description": info.description,
-        "default": item.default,
+        "default": getattr(_DEFAULTS, item.name),
         "options": set(),
     } | options
     if info.choices:
