@@ -9,9 +9,11 @@ from time import perf_counter
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
+from ..automatic.filter import automatic_filter
 from ..memory import check_memory
 from ..normals.filter import normal_filter
-from ..settings import DenoiseSettings
+from ..noise import NoiseEstimate
+from ..settings import DEFAULT_PRESET, PRESETS, DenoiseSettings
 from ..surface.connectivity import Connectivity
 from ..surface.face_changes import compare_faces
 from ..surface.normalization import displaced
@@ -73,7 +75,7 @@ def denoise(
     back, so that no digit is lost where nothing moves.
     """
     began = perf_counter()
-    settings = settings or DenoiseSettings()
+    settings = settings or PRESETS[DEFAULT_PRESET].settings
     if movable is not None:
         _check_movable(movable, surface.n_vertices)
     dtype = np.dtype(dtype)
@@ -90,7 +92,12 @@ def denoise(
         movable = movable[reordering.vertex_order]
     with prepared.blocks.with_threads(settings.threads) as blocks:
         constraints = find_constraints(ordered, connectivity, settings, movable, dtype, prepared.corners)
-        if settings.method == "BILATERAL":
+        noise, recipe = None, ""
+        if settings.method == "AUTO":
+            *solved, noise, recipe = automatic_filter(
+                noisy, ordered, connectivity, prepared.edge, settings, constraints, blocks, callback
+            )
+        elif settings.method == "BILATERAL":
             solved = bilateral_filter(noisy, ordered, connectivity, settings, constraints, blocks, callback)
         elif settings.method == "NORMALS":
             solved = normal_filter(noisy, ordered, connectivity, settings, constraints, blocks, callback)
@@ -101,7 +108,9 @@ def denoise(
             solved = split_bregman(noisy, prepared.transform, settings, constraints, blocks, callback)
         points, iterations, is_stopped = solved
         vertices = displaced(ordered.vertices, points, noisy, prepared.edge, blocks)
-        report = _report(prepared, vertices, iterations, is_stopped, began)
+        report = _report(
+            prepared, vertices, iterations, is_stopped, began, settings=settings, noise=noise, recipe=recipe
+        )
     return DenoiseResult(vertices if reordering is None else reordering.vertices_back(vertices), report)
 
 
@@ -117,7 +126,15 @@ def _check_movable(movable: NDArray[np.bool_], n_vertices: int) -> None:
 
 
 def _report(
-    prepared: Prepared, vertices: NDArray[np.floating], iterations: int, is_stopped: bool, began: float
+    prepared: Prepared,
+    vertices: NDArray[np.floating],
+    iterations: int,
+    is_stopped: bool,
+    began: float,
+    *,
+    settings: DenoiseSettings,
+    noise: NoiseEstimate | None,
+    recipe: str,
 ) -> DenoiseReport:
     """Account for a finished run."""
     surface, connectivity, blocks = prepared.ordered, prepared.connectivity, prepared.blocks
@@ -149,4 +166,7 @@ def _report(
         non_manifold_vertices=int(connectivity.is_non_manifold.sum()),
         loose_vertices=int(connectivity.is_loose.sum()),
         seconds=perf_counter() - began,
+        settings=settings,
+        noise=noise,
+        recipe=recipe,
     )

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from ..blocks import Blocks
-from ..settings import DenoiseSettings
+from ..settings import DEFAULT_PRESET, PRESETS, DenoiseSettings
 from ..surface.checks import check_surface
 from ..surface.connectivity import Connectivity, connect
 from ..surface.locality import Reordering, is_scattered, reorder, spatial_order
@@ -115,7 +115,7 @@ def prepare(
         In one sentence, if the mesh has no faces, no size or positions that are not finite, or if the frame
         does not fit it.
     """
-    settings = settings or DenoiseSettings()
+    settings = settings or PRESETS[DEFAULT_PRESET].settings
     reordering = None
     if previous is not None and previous.has_topology_of(surface):
         if previous.fits(surface, settings, dtype):

@@ -36,6 +36,7 @@ def pilot_normals(
     sharpness: float,
     blocks: Blocks,
     tick: Tick = lambda: None,
+    unit: float | None = None,
 ) -> NDArray[np.floating]:
     """Shrink the differences of neighboring normals.
 
@@ -46,7 +47,7 @@ def pilot_normals(
     neighbors : Neighbors
         Faces across edges.
     threshold : float
-        Shrinkage threshold, in units of the median difference of neighboring noisy normals.
+        Shrinkage threshold, in units of `unit`.
     sharpness : float
         0 for plain shrinkage. Otherwise the eps of reweighted shrinkage, for shapes made of planes: in each
         round after the first the threshold of a difference d is multiplied by eps / (|d| + eps).
@@ -54,6 +55,8 @@ def pilot_normals(
         Threads to work on.
     tick : callable, optional
         Called after each iteration.
+    unit : float, optional
+        Typical difference of neighboring normals; by default the median of the noisy ones.
 
     Returns
     -------
@@ -67,7 +70,7 @@ def pilot_normals(
     meshes of one kind of faces the measure is constant.
     """
     level = AdaptiveLevel(neighbors, _EqualBank, np.ones(noisy.shape[1]), noisy.dtype, blocks)
-    scale = median_difference(noisy, neighbors)
+    scale = median_difference(noisy, neighbors) if unit is None else unit
     shrink = _Reweighted(len(level.sites), threshold * scale, sharpness)
     mu = noisy.dtype.type(COUPLING)
     normals = noisy

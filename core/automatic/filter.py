@@ -1,0 +1,102 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Automatic denoising: noise, choice, run."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..blocks import Blocks
+from ..denoising.constraints import Constraints
+from ..denoising.report import Callback
+from ..noise import NoiseEstimate, estimate_noise
+from ..settings import DenoiseSettings
+from ..surface.connectivity import Connectivity
+from ..surface.surface_mesh import SurfaceMesh
+from .choose import choose_recipe
+from .recipes import RECIPES, NormalProblem, n_ticks
+
+LEAST_NOISE = 0.004
+"""Noise in mean edge lengths below which a mesh counts as clean and is left alone."""
+
+CHOOSING_SHARE = 0.5
+"""Share of the progress that choosing takes."""
+
+CLEAN = "Clean already"
+
+
+class Automatic(NamedTuple):
+    """What automatic denoising gives back: positions (3, N), and how it went."""
+
+    points: NDArray[np.floating]
+    iterations: int
+    is_stopped: bool
+    noise: NoiseEstimate
+    recipe: str
+
+
+class _Stopped(Exception):
+    """Raised inside when the callback asks to stop."""
+
+
+def automatic_filter(
+    noisy: NDArray[np.floating],
+    surface: SurfaceMesh,
+    connectivity: Connectivity,
+    edge: float,
+    settings: DenoiseSettings,
+    constraints: Constraints,
+    blocks: Blocks,
+    callback: Callback | None = None,
+) -> Automatic:
+    """Measure the noise, choose a recipe, and run it.
+
+    Parameters
+    ----------
+    noisy : ndarray, shape (3, N)
+        Noisy positions in mean edge lengths; not modified.
+    surface : SurfaceMesh
+        The mesh, with its positions in scene units.
+    connectivity : Connectivity
+        Its neighborhoods.
+    edge : float
+        Mean edge length in scene units.
+    settings : DenoiseSettings
+        `strength`.
+    constraints : Constraints
+        Vertices that may not move freely.
+    blocks : Blocks
+        Threads to work on.
+    callback : callable, optional
+        See `report.Callback`.
+
+    Returns
+    -------
+    Automatic
+        If the run was stopped, or the mesh is clean, the noisy positions.
+    """
+    noise = estimate_noise(surface, connectivity, blocks)
+    sigma = settings.strength * (noise.rms if noise.is_impulsive else noise.sigma) / edge
+    if sigma < LEAST_NOISE:
+        return Automatic(noisy, 0, False, noise, CLEAN)
+    done, total = 0.0, 1.0
+
+    def advance(share: float, change: float = 0.0) -> None:
+        nonlocal done
+        done = min(done + share, total)
+        if callback is not None and callback(done, change):
+            raise _Stopped
+
+    try:
+        recipe = choose_recipe(
+            noisy, surface, sigma, blocks, lambda: advance(CHOOSING_SHARE / (2 * len(RECIPES)))
+        )
+        step = (1.0 - CHOOSING_SHARE) / n_ticks(recipe)
+        problem = NormalProblem(noisy, surface, connectivity, sigma, blocks)
+        points = problem.run(recipe, constraints, lambda change: advance(step, change))
+    except _Stopped:
+        return Automatic(noisy, 0, True, noise, "")
+    return Automatic(points, recipe.vertex_steps, False, noise, recipe.label)

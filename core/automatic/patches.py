@@ -1,0 +1,90 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Parts of a large mesh, spread over it, on which recipes are tried."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..normals.vertex_update import face_centroids
+from ..surface.surface_mesh import SurfaceMesh
+
+WHOLE = 12000
+"""Faces up to which the whole mesh is used."""
+
+N_PATCHES = 8
+FACES_IN_PATCH = 1500
+INNER = 0.6
+"""Share of a patch's radius within which vertices count: farther out the cut is too near."""
+
+_SEED_CANDIDATES = 20000
+
+
+class Trial(NamedTuple):
+    """A part of a mesh: its vertices' numbers (n,), the faces that it has as a mesh, and which vertices count."""
+
+    vertices: NDArray[np.intp]
+    surface: SurfaceMesh
+    counts: NDArray[np.bool_]
+
+
+def trial_part(points: NDArray[np.floating], surface: SurfaceMesh) -> Trial:
+    """Return the part of a mesh on which recipes are tried; small meshes whole.
+
+    Parameters
+    ----------
+    points : ndarray, shape (3, N)
+        Positions; patches are balls around points far from each other.
+    surface : SurfaceMesh
+        The mesh, for its faces.
+
+    Returns
+    -------
+    Trial
+    """
+    if surface.n_faces <= WHOLE:
+        everything = np.arange(surface.n_vertices)
+        return Trial(everything, surface, np.ones(surface.n_vertices, bool))
+    centroids = face_centroids(points, surface)
+    is_chosen = np.zeros(surface.n_faces, bool)
+    is_inner = np.zeros(surface.n_vertices, bool)
+    for seed in _far_apart(centroids):
+        distance = ((centroids - centroids[:, seed, None]) ** 2).sum(axis=0)
+        radius = np.partition(distance, FACES_IN_PATCH)[FACES_IN_PATCH]
+        is_chosen |= distance <= radius
+        inner = np.flatnonzero(distance <= INNER**2 * radius)
+        is_inner[_corners_of(surface, inner)] = True
+    faces = np.flatnonzero(is_chosen)
+    corners = _corners_of(surface, faces)
+    vertices, local = np.unique(corners, return_inverse=True)
+    sizes = surface.face_sizes()[faces]
+    ends = np.cumsum(sizes)[:-1]
+    part = SurfaceMesh.from_faces(surface.vertices[vertices], np.split(local.reshape(-1), ends))
+    return Trial(vertices, part, is_inner[vertices])
+
+
+def _corners_of(surface: SurfaceMesh, faces: NDArray[np.intp]) -> NDArray[np.int32]:
+    """Return the vertices of some faces, face by face."""
+    sizes = surface.face_sizes()[faces]
+    begin = np.repeat(surface.face_offset[faces] - (np.cumsum(sizes) - sizes), sizes)
+    return surface.corner_vertex[begin + np.arange(len(begin))]
+
+
+def _far_apart(centroids: NDArray[np.floating]) -> list[int]:
+    """Return faces that are far from each other, by farthest-point sampling from the middle.
+
+    Of huge meshes every so manieth face is looked at.
+    """
+    tried = np.arange(0, centroids.shape[1], max(1, centroids.shape[1] // _SEED_CANDIDATES))
+    places = centroids[:, tried]
+    nearest = ((places - places.mean(axis=1, keepdims=True)) ** 2).sum(axis=0)
+    found: list[int] = []
+    for _ in range(N_PATCHES):
+        seed = int(nearest.argmax())
+        found.append(int(tried[seed]))
+        distance = ((places - places[:, seed, None]) ** 2).sum(axis=0)
+        nearest = distance if len(found) == 1 else np.minimum(nearest, distance)
+    return found

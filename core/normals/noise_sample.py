@@ -1,0 +1,109 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A sample of the noise that vertices of a given noise make in the normals of the faces."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..blocks import Blocks
+from ..surface.surface_mesh import SurfaceMesh
+from .neighbors import Ragged
+from .pilot import unit_columns
+from .vertex_update import face_centroids
+
+PERIODS = 64.0
+"""Periods of the scrambled roughness in one standard deviation of the noise: many, so that the values within
+a period are spread evenly, and few enough for the digits of single precision."""
+
+
+def area_vectors(points: NDArray[np.floating], surface: SurfaceMesh) -> NDArray[np.floating]:
+    """Return vector areas, shape (3, F), of the faces at positions (3, N): Newell's formula."""
+    size = surface.common_face_size()
+    if size == 3 or size == 4:
+        corner = points.take(surface.corner_vertex.reshape(-1, size), axis=1)
+        first = corner[:, :, 2 if size == 4 else 1] - corner[:, :, 0]
+        second = corner[:, :, 3] - corner[:, :, 1] if size == 4 else corner[:, :, 2] - corner[:, :, 0]
+        return 0.5 * _cross(first, second)
+    sizes = surface.face_sizes()
+    filled = sizes > 0
+    begin = np.repeat(surface.face_offset[:-1], sizes)
+    # Relative to the first corner of the face, so that large coordinates cost no digits.
+    origin = points.take(surface.corner_vertex[begin], axis=1)
+    here = points.take(surface.corner_vertex, axis=1) - origin
+    there = points.take(surface.corner_vertex[surface.next_corner()], axis=1) - origin
+    vectors = np.zeros((3, surface.n_faces), points.dtype)
+    vectors[:, filled] = np.add.reduceat(_cross(here, there), surface.face_offset[:-1][filled], axis=1)
+    return 0.5 * vectors
+
+
+def _cross(first: NDArray[np.floating], second: NDArray[np.floating]) -> NDArray[np.floating]:
+    """Return cross products of vectors, shape (3, n)."""
+    (a, b, c), (x, y, z) = first, second
+    return np.stack((b * z - c * y, c * x - a * z, a * y - b * x))
+
+
+def normals_of(points: NDArray[np.floating], surface: SurfaceMesh) -> NDArray[np.floating]:
+    """Return unit normals, shape (3, F); zero for faces without area."""
+    vectors = area_vectors(points, surface)
+    return unit_columns(vectors, np.zeros_like(vectors))
+
+
+def vertex_means(values: NDArray[np.floating], at_vertex: Ragged) -> NDArray[np.floating]:
+    """Return the means, shape (3, N), of values (3, F) over the faces at each vertex; zero without faces."""
+    counts = np.diff(at_vertex.offset)
+    filled = counts > 0
+    means = np.zeros((3, len(counts)), values.dtype)
+    if filled.any():
+        sums = np.add.reduceat(values.take(at_vertex.items, axis=1), at_vertex.offset[:-1][filled], axis=1)
+        means[:, filled] = sums / counts[filled].astype(values.dtype)
+    return means
+
+
+def scrambled(
+    points: NDArray[np.floating], surface: SurfaceMesh, at_vertex: Ragged, sigma: float, periods: float
+) -> NDArray[np.floating]:
+    """Return a number between 0 and 1 for each vertex, shape (N,), which looks random.
+
+    It is made from the height of the vertex over the faces around it, in units of sigma: its digits after
+    `periods` periods. So it does not depend on how vertices are numbered or how the mesh is turned.
+    """
+    normals = vertex_means(area_vectors(points, surface), at_vertex)
+    normals = unit_columns(normals, np.zeros_like(normals))
+    arm = points - vertex_means(face_centroids(points, surface), at_vertex)
+    height = np.einsum("cn,cn->n", arm, normals)
+    number = height * points.dtype.type(periods / sigma)
+    return number - np.floor(number)
+
+
+def noise_in_normals(
+    points: NDArray[np.floating],
+    amount: NDArray[np.floating],
+    surface: SurfaceMesh,
+    at_vertex: Ragged,
+    blocks: Blocks,
+) -> NDArray[np.floating]:
+    """Return how normals change when vertices move along their normals.
+
+    Parameters
+    ----------
+    points : ndarray, shape (3, N)
+        A surface without much noise; not modified.
+    amount : ndarray, shape (N,)
+        How far each vertex moves.
+    surface : SurfaceMesh
+        The mesh, for its faces.
+    at_vertex : Ragged
+        Faces at each vertex.
+    blocks : Blocks
+        Threads to work on.
+
+    Returns
+    -------
+    ndarray, shape (3, F)
+    """
+    vectors = area_vectors(points, surface)
+    directions = vertex_means(vectors, at_vertex)
+    moved = points + amount * unit_columns(directions, np.zeros_like(directions))
+    return normals_of(moved, surface) - unit_columns(vectors, np.zeros_like(vectors))
