@@ -34,7 +34,9 @@ class FrameletNoise(bpy.types.PropertyGroup):
     is_denoised: BoolProperty(
         name="Denoised", description="The noise is that before the last run, which removed it"
     )
-    recipe: StringProperty(name="Recipe", description="What automatic denoising chose; empty if it did not run")
+    recipe: StringProperty(
+        name="Recipe", description="What automatic denoising chose; empty if it did not run"
+    )
 
 
 class FrameletEstimate(bpy.types.PropertyGroup):

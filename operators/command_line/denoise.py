@@ -146,4 +146,5 @@ def _describe_noise(report: DenoiseReport, noise: NoiseEstimate) -> str:
     used = report.settings
     if report.recipe:
         return f"{text}; chosen for it: {report.recipe}."
-    return f"{text}; taken from it: λ {used.lambda_:.3g}, μ {used.mu:.3g}, {count(used.iterations, 'iteration')}."
+    iterations = count(used.iterations, "iteration")
+    return f"{text}; taken from it: λ {used.lambda_:.3g}, μ {used.mu:.3g}, {iterations}."

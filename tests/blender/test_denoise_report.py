@@ -124,6 +124,9 @@ def test_the_sentence_names_noise_and_recipe(capfd):
     noisy_monkey()
     bpy.ops.object.framelet_denoise()
     recipe = last_report().recipe
-    assert re.search(rf"; noise [\d.]+ c?m \(\d\.\d{{3}} edge lengths(, impulsive)?\); used {recipe}\n", capfd.readouterr().out)
+    assert re.search(
+        rf"; noise [\d.]+ c?m \(\d\.\d{{3}} edge lengths(, impulsive)?\); used {recipe}\n",
+        capfd.readouterr().out,
+    )
     bpy.ops.object.framelet_denoise(preset="TRI_2")
     assert "noise" not in capfd.readouterr().out
