@@ -129,4 +129,4 @@ def test_the_sentence_names_noise_and_recipe(capfd):
         capfd.readouterr().out,
     )
     bpy.ops.object.framelet_denoise(preset="TRI_2")
-    assert "noise" not in capfd.readouterr().out
+    assert "; noise" not in capfd.readouterr().out

@@ -56,9 +56,8 @@ def test_the_estimate_is_that_of_core_and_nothing_changes(make_noisy):
 def test_impulsive_noise_is_called_so(make_noisy, rng, capfd):
     obj = make_noisy(sigma=0.0)
     surface = mesh_bridge.read_surface(obj)
-    edge = np.linalg.norm(np.diff(surface.vertices[surface.edges], axis=1), axis=2).mean()
-    hit = rng.random((surface.n_vertices, 1)) < 0.1
-    vertices = surface.vertices * (1.0 + 0.5 * edge * hit * rng.normal(size=hit.shape))
+    is_hit = rng.random((surface.n_vertices, 1)) < 0.25
+    vertices = np.where(is_hit, add_noise(surface, 0.5, 1), surface.vertices)
     mesh_bridge.write_vertices(obj, surface, vertices)
     expected = estimate_noise(mesh_bridge.read_surface(obj))
     assert expected.is_impulsive

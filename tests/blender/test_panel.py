@@ -148,6 +148,7 @@ def test_the_noise_of_the_active_object_is_shown_once_it_is_measured():
         assert ("Impulsive" in draw(panel.VIEW3D_PT_framelet)["label"]) == is_impulsive
     bpy.context.scene.framelet.preset = "TRI_2"
     assert "Chosen" not in draw(panel.VIEW3D_PT_framelet)["label"]
+    bpy.context.scene.framelet.preset = "AUTO"
     bpy.ops.mesh.primitive_cube_add()
     assert draw(panel.VIEW3D_PT_framelet)["label"] == []
 

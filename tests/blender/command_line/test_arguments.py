@@ -77,8 +77,8 @@ def test_options_without_effect_are_refused(key, item):
         ),
         (
             ["--preset", "tri-1", "--tuning", "noise", "--mu", "1"],
-            "--mu has no effect with --tuning noise, which takes it from the measured noise; leave one of them "
-            "out.",
+            "--mu has no effect with --tuning noise, which takes it from the measured noise; "
+            "leave one of them out.",
         ),
     ],
 )
