@@ -32,7 +32,7 @@ def add_command(subparsers: argparse._SubParsersAction) -> None:
         description="Denoise the surface in a PLY, OBJ or STL file, or all mesh objects in the scene of a "
         ".blend file. Vertices move; their number and order, faces, UVs and colors stay.",
         usage="%(prog)s IN OUT [options]",
-        epilog="example: %(prog)s scan.ply clean.ply --strength 0.8 --report clean.json\n"
+        epilog="example: %(prog)s scan.ply clean.ply --report clean.json\n"
         "example: %(prog)s scan.ply clean.ply --preset tri-1 --lambda 0.4",
         formatter_class=HelpFormatter,
         allow_abbrev=False,
