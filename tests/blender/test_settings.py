@@ -62,6 +62,24 @@ def test_presets_are_items():
     assert [item.identifier for item in items] == [*PRESETS, module.CUSTOM]
 
 
+def test_numbers_in_files_stay():
+    """Files hold numbers: those of version 0.1.0 must keep their meaning."""
+    properties = FrameletSettings.bl_rna.properties
+    old = {
+        "preset": "AUTO TRI_1 TRI_2 QUAD_1 QUAD_2 FREE_FORM PRISMATIC BILATERAL CUSTOM",
+        "method": "POSITIONS NORMALS BILATERAL",
+        "stencil": "MEAN STRAIGHT ADAPTIVE",
+        "shrinkage": "BANDS VECTOR SCALAR",
+        "boundary": "FIXED ALONG FREE",
+    }
+    for name, identifiers in old.items():
+        numbers = {item.identifier: item.value for item in properties[name].enum_items}
+        assert [numbers[identifier] for identifier in identifiers.split()] == list(
+            range(len(identifiers.split()))
+        )
+        assert sorted(numbers.values()) == list(range(len(numbers)))
+
+
 def test_untouched_settings_are_the_default_preset(scene_settings):
     assert scene_settings.preset == DEFAULT_PRESET
     assert module.to_settings(scene_settings) == DEFAULTS
