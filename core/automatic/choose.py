@@ -21,11 +21,8 @@ from .recipes import RECIPES, NormalProblem, Recipe, unit_noise
 PROBE = 0.01
 """How far vertices are moved, in mean edge lengths, to see how much a result follows the noise."""
 
-NEAR_TIE = 0.1
-"""Recipes whose risk is within this share of the lowest are level."""
-
 LEAST_RISK = 0.05
-"""In units of the variance of the noise: of smaller risks, shares are taken of this one."""
+"""In units of the variance of the noise; smaller risks count as this one, as the estimate is not that exact."""
 
 
 def choose_recipe(
@@ -58,9 +55,8 @@ def choose_recipe(
     -----
     Stein's estimate of the mean squared error (Ramani, Blu, Unser 2008), for displacements q along the
     normals of the noisy mesh: mean(q^2) - sigma^2 + 2 sigma^2 mean(b dq / eps), where dq is how q changes
-    when the vertices move by eps b, b = +-1. Of the recipes whose estimate is near the lowest the one with
-    the least mean difference of adjacent normals is taken: the error of positions says little about
-    roughness, which is what people see.
+    when the vertices move by eps b, b = +-1. It is multiplied by the square of the mean difference of
+    adjacent normals, as the error of positions says little about roughness, which is what people see.
     """
     part = trial_part(noisy, surface)
     points = np.ascontiguousarray(noisy[:, part.vertices])
@@ -81,9 +77,9 @@ def choose_recipe(
     counted = part.counts & directions.any(axis=0)
     risks, roughness = [], []
     for recipe in RECIPES:
-        result = problem.fitted(problem.clean_normals(recipe), recipe.vertex_steps)
+        result = problem.run(recipe)
         tick()
-        moved = other.fitted(other.clean_normals(recipe), recipe.vertex_steps)
+        moved = other.run(recipe)
         tick()
         q = np.einsum("cn,cn->n", result - points, directions)[counted].astype(np.float64)
         change = np.einsum("cn,cn->n", moved - result, directions)[counted].astype(np.float64)
@@ -91,7 +87,7 @@ def choose_recipe(
         # Both sides hold q = result - points, whose own divergence is that of the result less 1.
         risks.append(float((q * q).mean() if len(q) else 0.0) - sigma**2 + 2.0 * sigma**2 * divergence)
         roughness.append(_roughness(result, problem))
-    return RECIPES[_most_regular(risks, roughness, sigma)]
+    return RECIPES[_best(risks, roughness, sigma)]
 
 
 def _roughness(points: NDArray[np.floating], problem: NormalProblem) -> float:
@@ -102,9 +98,11 @@ def _roughness(points: NDArray[np.floating], problem: NormalProblem) -> float:
     return float(np.sqrt((apart * apart).sum(axis=0)).mean()) if apart.size else 0.0
 
 
-def _most_regular(risks: list[float], roughness: list[float], sigma: float) -> int:
-    """Return which of the recipes with nearly the lowest risk is the most regular."""
-    lowest = min(risks)
-    limit = lowest + NEAR_TIE * max(lowest, LEAST_RISK * sigma**2)
-    near = [index for index, risk in enumerate(risks) if risk <= limit]
-    return min(near, key=lambda index: roughness[index])
+def _best(risks: list[float], roughness: list[float], sigma: float) -> int:
+    """Return the recipe with the lowest risk times squared roughness."""
+    smallest = max(min(roughness), 1e-12)
+    scores = [
+        max(risk, LEAST_RISK * sigma**2) * (rough / smallest) ** 2
+        for risk, rough in zip(risks, roughness, strict=True)
+    ]
+    return int(np.argmin(scores))

@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 from ..normals.vertex_update import face_centroids
 from ..surface.surface_mesh import SurfaceMesh
 
-WHOLE = 12000
+WHOLE = 7000
 """Faces up to which the whole mesh is used."""
 
-N_PATCHES = 8
-FACES_IN_PATCH = 1500
+N_PATCHES = 6
+FACES_IN_PATCH = 1100
 INNER = 0.6
 """Share of a patch's radius within which vertices count: farther out the cut is too near."""
 

@@ -13,23 +13,24 @@ from numpy.typing import NDArray
 from ..blocks import Blocks
 from ..denoising.constraints import Constraints
 from ..denoising.progress import rms_motion
-from ..normals.band_shrinkage import shrink_bands
+from ..normals.band_shrinkage import shrink_bands, unit_rows
 from ..normals.face_averages import FaceAverages
-from ..normals.folds import damp_folds
+from ..normals.folds import unfold
 from ..normals.neighbors import edge_neighbors, faces_of_vertices
-from ..normals.noise_sample import area_vectors, noise_in_normals, normals_of, scrambled
-from ..normals.pilot import ITERATIONS, median_difference, pilot_normals
+from ..normals.noise_sample import area_vectors, noise_in_normals, normals_of, scrambled, vertex_means
+from ..normals.pilot import ITERATIONS, median_difference, pilot_normals, unit_columns
 from ..normals.vertex_update import face_centroids, update_vertices
 from ..surface.connectivity import Connectivity
 from ..surface.surface_mesh import SurfaceMesh
+from .smooth_positions import RingAverages, smooth_positions
 
 
 class Recipe(NamedTuple):
     """Parameters of a run on normals.
 
     `threshold` is the pilot's, in units of the median difference that the noise makes between neighboring
-    normals. There is a pass of shrinkage for each of `range_sigmas`. `caution` is explained in
-    `normals.band_shrinkage`.
+    normals. There is a pass of shrinkage for each of `range_sigmas`; without any, positions are shrunk instead
+    of normals. `caution` is explained in `normals.band_shrinkage`.
     """
 
     label: str
@@ -47,6 +48,7 @@ RECIPES = (
     Recipe("Round with edges", 0.1, (0.5, 0.5), 1.5, 5, 15),
     Recipe("Soft", 0.12, (0.8, 0.6), 1.5, 4, 12),
     Recipe("Fine relief", 0.12, (1.2, 1.2), 1.5, 4, 8),
+    Recipe("Smooth and coarse", 0.0, (), 1.0, 6, 0),
 )
 """From machine parts to organic shapes."""
 
@@ -106,6 +108,7 @@ class NormalProblem:
         )
         little = noise_in_normals(noisy, TINY_STEP * sigma * sample, surface, self.at_vertex, blocks)
         self.unit = median_difference(little, self.neighbors) / TINY_STEP
+        self.rings = RingAverages(connectivity, blocks)
         self._pilots: dict[float, NDArray[np.floating]] = {}
 
     def clean_normals(self, recipe: Recipe, tick: Tick = lambda _: None) -> NDArray[np.floating]:
@@ -138,7 +141,7 @@ class NormalProblem:
                 recipe.caution,
                 lambda: tick(0.0),
             )
-            normals = np.ascontiguousarray(cleaned.T)
+            normals = np.ascontiguousarray(unit_rows(cleaned, noisy).T)
         return normals
 
     def fitted(
@@ -163,10 +166,31 @@ class NormalProblem:
     def run(
         self, recipe: Recipe, constraints: Constraints | None = None, tick: Tick = lambda _: None
     ) -> NDArray[np.floating]:
-        """Return denoised positions, shape (3, N), without new folds."""
-        normals = self.clean_normals(recipe, tick)
-        points = self.fitted(normals, recipe.vertex_steps, constraints, tick)
-        return damp_folds(points, self.noisy, normals, self.surface)
+        """Return denoised positions, shape (3, N), without folds as far as possible."""
+        if recipe.range_sigmas:
+            normals = self.clean_normals(recipe, tick)
+            points = self.fitted(normals, recipe.vertex_steps, constraints, tick)
+        else:
+            directions = vertex_means(area_vectors(self.noisy, self.surface), self.at_vertex)
+            noise = self.sigma * self.sample * unit_columns(directions, np.zeros_like(directions))
+            points = smooth_positions(self.noisy, noise, self.rings, recipe.n_bands, recipe.caution)
+            tick(0.0)
+            normals = self._normals_around(points)
+        points = unfold(points, normals, self.surface, self._ring_mean)
+        if constraints is not None:
+            constraints.apply(points, self.noisy)
+        return points
+
+    def _normals_around(self, points: NDArray[np.floating]) -> NDArray[np.floating]:
+        """Return, for each face, the mean normal of the faces around its corners, shape (3, F)."""
+        at_corners = vertex_means(area_vectors(points, self.surface), self.at_vertex)
+        around = face_centroids(at_corners, self.surface)
+        return unit_columns(around, np.zeros_like(around))
+
+    def _ring_mean(self, points: NDArray[np.floating]) -> NDArray[np.floating]:
+        """Return the means over the neighbors of each vertex, shape (3, N)."""
+        weights = self.rings.weights(0.0, points.dtype)
+        return self.rings.average(weights, np.ascontiguousarray(points.T)).T
 
 
 def unit_noise(number: NDArray[np.floating]) -> NDArray[np.floating]:
@@ -176,4 +200,6 @@ def unit_noise(number: NDArray[np.floating]) -> NDArray[np.floating]:
 
 def n_ticks(recipe: Recipe) -> int:
     """Return how often a run of a recipe calls `tick`, if its pilot is not there yet."""
+    if not recipe.range_sigmas:
+        return 1
     return ITERATIONS + len(recipe.range_sigmas) * recipe.n_bands + recipe.vertex_steps

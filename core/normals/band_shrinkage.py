@@ -15,7 +15,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from .face_averages import FaceAverages, Weights
+from .averages import Averages, Weights
 from .pilot import Tick
 
 WIDEST = 4
@@ -31,21 +31,21 @@ def shrink_bands(
     noisy: NDArray[np.floating],
     noise: NDArray[np.floating],
     pilot: NDArray[np.floating],
-    averages: FaceAverages,
+    averages: Averages,
     weights: Weights,
     n_bands: int,
     caution: float,
     tick: Tick = lambda: None,
 ) -> NDArray[np.floating]:
-    """Shrink the bands of a field of normals.
+    """Shrink the bands of a field of normals, or of positions.
 
     Parameters
     ----------
     noisy, noise, pilot : ndarray, shape (F, 3)
         Noisy unit normals; a sample of the noise in them; clean unit normals as far as they are known. Not
-        modified.
-    averages : FaceAverages
-        Faces around faces.
+        modified. Or all three of positions, shape (N, 3).
+    averages : Averages
+        Neighbors.
     weights : Weights
         Weights of A.
     n_bands : int
@@ -57,8 +57,8 @@ def shrink_bands(
 
     Returns
     -------
-    ndarray, shape (F, 3)
-        Unit normals.
+    ndarray, shape (F, 3) or (N, 3)
+        Clean vectors, not yet of length 1.
 
     Notes
     -----
@@ -91,7 +91,7 @@ def shrink_bands(
         result += gain[:, None] * high[:, :3]
         tick()
     result += low[:, :3]
-    return unit_rows(result, noisy)
+    return result
 
 
 def unit_rows(vectors: NDArray[np.floating], fallback: NDArray[np.floating]) -> NDArray[np.floating]:

@@ -1,38 +1,19 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Averages over faces that share a vertex, with weights that a guide cuts off at creases.
-
-Fields on faces have shape (F, C) here: an average is a product of a row of weights with gathered rows.
 """
 
 from __future__ import annotations
-
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
 from ..surface.surface_mesh import SurfaceMesh
+from .averages import Averages, Group, Weights
 from .neighbors import Ragged, faces_around
 
-FACES_AT_ONCE = 4096
-"""Faces in a block, so that the gathered rows of a group stay in the cache."""
-
-
-class _Group(NamedTuple):
-    """Faces with the same number of faces around them: rows (n,), members and weights (n, K)."""
-
-    rows: NDArray[np.intp]
-    members: NDArray[np.int32]
-    spatial: NDArray[np.floating]
-
-
-Weights = list[list[NDArray[np.floating]]]
-"""Row-stochastic weights of each group of each block, shape (n, K)."""
-
-
-class FaceAverages:
+class FaceAverages(Averages):
     """The faces around each face, itself included, and what does not change of their weights.
 
     Parameters
@@ -60,25 +41,21 @@ class FaceAverages:
         spatial_sigma: float,
         blocks: Blocks,
     ) -> None:
-        self._blocks = blocks.sized(FACES_AT_ONCE)
-        self._n = surface.n_faces
         scale = centroids.dtype.type(-0.5 / max(spatial_sigma, 1e-30) ** 2)
 
-        def kernel(start: int, stop: int) -> list[_Group]:
-            around = faces_around(surface, at_vertex, start, stop)
-            counts = np.diff(around.offset)
-            groups = []
-            for count in np.unique(counts[counts > 0]):
-                rows = np.flatnonzero(counts == count)
-                members = around.items[around.offset[rows][:, None] + np.arange(count)]
-                apart = centroids.take(members, axis=0)
-                apart -= centroids[start + rows][:, None]
-                spatial = np.exp(np.einsum("nkc,nkc->nk", apart, apart) * scale)
-                spatial *= areas.take(members)
-                groups.append(_Group(start + rows, members, spatial))
-            return groups
+        def around(start: int, stop: int) -> Ragged:
+            return faces_around(surface, at_vertex, start, stop)
 
-        self._groups = self._blocks.run(kernel, self._n)
+        super().__init__(around, surface.n_faces, blocks)
+
+        def weigh(group: Group) -> NDArray[np.floating]:
+            apart = centroids.take(group.members, axis=0)
+            apart -= centroids[group.rows][:, None]
+            spatial = np.exp(np.einsum("nkc,nkc->nk", apart, apart) * scale)
+            spatial *= areas.take(group.members)
+            return spatial
+
+        self._spatial = self.for_groups(weigh)
 
     def weights(self, guide: NDArray[np.floating], range_sigma: float) -> Weights:
         """Return weights area exp(-|c_f - c_g|^2 / 2 sigma_c^2) exp(-|guide_f - guide_g|^2 / 2 s^2).
@@ -88,31 +65,16 @@ class FaceAverages:
         scale = guide.dtype.type(-0.5 / range_sigma**2)
         smallest = np.finfo(guide.dtype).tiny
 
-        def kernel(start: int, _: int) -> list[NDArray[np.floating]]:
-            found = []
-            for rows, members, spatial in self._groups[start // self._blocks.block_size]:
-                apart = guide.take(members, axis=0)
-                apart -= guide[rows][:, None]
-                weights = np.exp(np.einsum("nkc,nkc->nk", apart, apart) * scale)
-                weights *= spatial
-                total = weights.sum(axis=1, keepdims=True)
-                # Around faces without area all weights are zero: the face itself stands in.
-                np.divide(weights, total, out=weights, where=total > smallest)
-                lost = np.flatnonzero(total[:, 0] <= smallest)
-                weights[lost] = members[lost] == rows[lost, None]
-                found.append(weights)
-            return found
+        def weigh(group: Group, spatial: NDArray[np.floating]) -> NDArray[np.floating]:
+            apart = guide.take(group.members, axis=0)
+            apart -= guide[group.rows][:, None]
+            weights = np.exp(np.einsum("nkc,nkc->nk", apart, apart) * scale)
+            weights *= spatial
+            total = weights.sum(axis=1, keepdims=True)
+            # Around faces without area all weights are zero: the face itself stands in.
+            np.divide(weights, total, out=weights, where=total > smallest)
+            lost = np.flatnonzero(total[:, 0] <= smallest)
+            weights[lost] = group.members[lost] == group.rows[lost, None]
+            return weights
 
-        return self._blocks.run(kernel, self._n)
-
-    def average(self, weights: Weights, field: NDArray[np.floating]) -> NDArray[np.floating]:
-        """Return the averages, shape (F, C), of a field (F, C); faces without corners keep their value."""
-        result = field.copy()
-
-        def kernel(start: int, _: int) -> None:
-            index = start // self._blocks.block_size
-            for (rows, members, _spatial), weight in zip(self._groups[index], weights[index], strict=True):
-                result[rows] = np.matmul(weight[:, None], field.take(members, axis=0))[:, 0]
-
-        self._blocks.run(kernel, self._n)
-        return result
+        return self.for_groups(weigh, self._spatial)
