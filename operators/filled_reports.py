@@ -120,11 +120,11 @@ def _add_noise(
 
 
 def _parameters_text(report: DenoiseReport) -> str:
-    """Return the parameters that a run took from the noise; empty if it took none."""
+    """Return the parameters that a run took from the noise, besides its iterations; empty if it took none."""
     settings = report.settings
     if report.noise is None or settings.method != "POSITIONS":
         return ""
-    return f"λ {settings.lambda_:.3g}, μ {settings.mu:.3g}, {settings.iterations} iterations"
+    return f"λ {settings.lambda_:.3g}, μ {settings.mu:.3g}"
 
 
 def _rms(values: list[float], counts: list[int]) -> float:

@@ -3,12 +3,15 @@
 """The report of a run counts in scene units and in edge lengths, for one object and for several."""
 
 import re
+from dataclasses import replace
 
 import bpy
 import numpy as np
 import pytest
-from framelet.core import PRESETS, add_noise, denoise
+from framelet.core import PRESETS, add_noise, denoise, estimate_noise
 from framelet.operators import mesh_bridge
+from framelet.operators.denoise_object import MeasuredReport
+from framelet.operators.filled_reports import fill_report
 
 
 def noisy_monkey(name="Monkey", location=(0, 0, 0)):
@@ -96,7 +99,7 @@ def test_noise_and_recipe_of_the_default():
 
 
 def test_noise_of_several_objects():
-    objects = [noisy_monkey("A"), noisy_monkey("B")]
+    objects = [noisy_monkey("A")]
     bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=3)
     objects.append(bpy.context.object)
     reports = [denoise(mesh_bridge.read_surface(obj)).report for obj in objects]
@@ -130,3 +133,20 @@ def test_the_sentence_names_noise_and_recipe(capfd):
     )
     bpy.ops.object.framelet_denoise(preset="TRI_2")
     assert "; noise" not in capfd.readouterr().out
+
+
+def test_parameters_that_were_taken_from_the_noise():
+    """Of what a run reports, whatever made it."""
+    obj = noisy_monkey()
+    surface = mesh_bridge.read_surface(obj)
+    core = denoise(surface, PRESETS["TRI_2"].settings.with_changes(lambda_=0.31, mu=2.0)).report
+    report = last_report()
+    texts = []
+    for noise in (None, estimate_noise(surface)):
+        fill_report(report, {"Monkey": MeasuredReport(replace(core, noise=noise), 0.1, 0.2, 0.3)})
+        texts.append((report.has_noise, report.parameters))
+    assert texts == [(False, ""), (True, "λ 0.31, μ 2")]
+    other = replace(core, noise=estimate_noise(surface), settings=core.settings.with_changes(mu=3.0))
+    both = [MeasuredReport(replace(core, noise=other.noise), 0, 0, 0), MeasuredReport(other, 0, 0, 0)]
+    fill_report(report, dict(zip("AB", both, strict=True)))
+    assert report.parameters == "Different for each"
