@@ -29,16 +29,17 @@ class Recipe(NamedTuple):
     """Parameters of a run on normals.
 
     `threshold` is the pilot's, in units of the median difference that the noise makes between neighboring
-    normals. There is a pass of shrinkage for each of `range_sigmas`; without any, positions are shrunk instead
-    of normals. `caution` is explained in `normals.band_shrinkage`.
+    normals. There is a pass of shrinkage for each of `range_sigmas`; without any, positions are filtered instead
+    of normals, by a low-pass of `n_averages`. `caution` is explained in `normals.band_shrinkage`.
     """
 
     label: str
-    threshold: float
-    range_sigmas: tuple[float, ...]
-    caution: float
-    n_bands: int
-    vertex_steps: int
+    threshold: float = 0.0
+    range_sigmas: tuple[float, ...] = ()
+    caution: float = 1.0
+    n_bands: int = 0
+    vertex_steps: int = 0
+    n_averages: int = 0
 
 
 RECIPES = (
@@ -48,7 +49,7 @@ RECIPES = (
     Recipe("Round with edges", 0.1, (0.5, 0.5), 1.5, 5, 15),
     Recipe("Soft", 0.12, (0.8, 0.6), 1.5, 4, 12),
     Recipe("Fine relief", 0.12, (1.2, 1.2), 1.5, 4, 8),
-    Recipe("Smooth and coarse", 0.0, (), 1.0, 6, 0),
+    *(Recipe(f"Smooth and coarse {k}", n_averages=k) for k in (2, 4, 8, 16, 32)),
 )
 """From machine parts to organic shapes."""
 
@@ -171,9 +172,7 @@ class NormalProblem:
             normals = self.clean_normals(recipe, tick)
             points = self.fitted(normals, recipe.vertex_steps, constraints, tick)
         else:
-            directions = vertex_means(area_vectors(self.noisy, self.surface), self.at_vertex)
-            noise = self.sigma * self.sample * unit_columns(directions, np.zeros_like(directions))
-            points = smooth_positions(self.noisy, noise, self.rings, recipe.n_bands, recipe.caution)
+            points = smooth_positions(self.noisy, self.rings, recipe.n_averages)
             tick(0.0)
             normals = self._normals_around(points)
         points = unfold(points, normals, self.surface, self._ring_mean)

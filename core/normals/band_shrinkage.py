@@ -37,13 +37,13 @@ def shrink_bands(
     caution: float,
     tick: Tick = lambda: None,
 ) -> NDArray[np.floating]:
-    """Shrink the bands of a field of normals, or of positions.
+    """Shrink the bands of a field of normals.
 
     Parameters
     ----------
     noisy, noise, pilot : ndarray, shape (F, 3)
         Noisy unit normals; a sample of the noise in them; clean unit normals as far as they are known. Not
-        modified. Or all three of positions, shape (N, 3).
+        modified.
     averages : Averages
         Neighbors.
     weights : Weights
@@ -57,7 +57,7 @@ def shrink_bands(
 
     Returns
     -------
-    ndarray, shape (F, 3) or (N, 3)
+    ndarray, shape (F, 3)
         Clean vectors, not yet of length 1.
 
     Notes
