@@ -6,6 +6,7 @@ import bpy
 from bpy.props import FloatProperty, IntProperty
 
 from . import mesh_bridge, targets
+from .filled_reports import forget_estimate
 from .setting_values import as_typed
 
 
@@ -80,5 +81,6 @@ class OBJECT_OT_framelet_add_noise(bpy.types.Operator):
         )
         if not done:
             return {"CANCELLED"}
+        forget_estimate(context.window_manager.framelet_estimate, done)
         self.report({"INFO"}, f"Added noise of {sigma:g} edge lengths to {targets.names_text(list(done))}")
         return {"FINISHED"}

@@ -6,9 +6,10 @@ import bpy
 
 from . import targets
 from .denoise_object import denoise_and_measure
-from .filled_reports import fill_report
-from .scene_units import length_text
-from .setting_values import PROPERTY_NAMES, fill, has_effect, to_settings
+from .filled_reports import fill_estimate_of_run, fill_report
+from .report import FrameletReport
+from .scene_units import length_text, noise_text
+from .setting_values import PROPERTY_NAMES, fill, has_effect, is_replaced, to_settings
 from .settings import SettingsMixin
 
 
@@ -34,7 +35,9 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, bpy.types.Operator):
         layout.use_property_decorate = False
         for name in PROPERTY_NAMES:
             if has_effect(self.method, name):
-                layout.prop(self, name)
+                row = layout.row()
+                row.active = not is_replaced(self.method, self.tuning, name)
+                row.prop(self, name)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Denoise every target and fill the report of the last run."""
@@ -48,10 +51,21 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, bpy.types.Operator):
             return {"CANCELLED"}
         report = context.window_manager.framelet_report
         fill_report(report, measured)
+        fill_estimate_of_run(context.window_manager.framelet_estimate, measured)
         self.report(
             {"INFO"},
             f"Denoised {targets.names_text(list(measured))}: {report.n_moved:,} of {report.n_vertices:,} "
             f"vertices moved, {length_text(context.scene, report.displacement_rms)} RMS "
-            f"({report.displacement_rms_edges:.3f} edge lengths), in {report.seconds:.2f} s",
+            f"({report.displacement_rms_edges:.3f} edge lengths), in {report.seconds:.2f} s"
+            f"{_noise_words(context.scene, report)}",
         )
         return {"FINISHED"}
+
+
+def _noise_words(scene: bpy.types.Scene, report: FrameletReport) -> str:
+    """Say which noise was measured and what was made of it; nothing if it was not measured."""
+    if not report.has_noise:
+        return ""
+    noise = noise_text(scene, report.noise_sigma, report.noise_sigma_edges, report.is_impulsive)
+    taken = report.recipe or report.parameters
+    return f"; noise {noise}" + (f"; used {taken}" if taken else "")

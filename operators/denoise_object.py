@@ -17,11 +17,13 @@ if TYPE_CHECKING:
 
 
 class MeasuredReport(NamedTuple):
-    """A report, whose lengths are in object space, and how far vertices moved in scene units."""
+    """A report, whose lengths are in object space, how far vertices moved and the noise in scene units."""
 
     report: DenoiseReport
     scene_rms: float
     scene_max: float
+    scene_sigma: float
+    """Measured noise in scene units; 0 if it was not measured."""
 
 
 def denoise_object(
@@ -54,12 +56,12 @@ def denoise_object(
 def denoise_and_measure(
     obj: bpy.types.Object, settings: DenoiseSettings, callback: Callback | None = None
 ) -> MeasuredReport:
-    """Denoise as `denoise_object` does, and measure the displacement with the object's scale too."""
+    """Denoise as `denoise_object` does, and measure with the object's scale too."""
     reason = mesh_bridge.refusal(obj)
     if reason is not None:
         raise ValueError(reason)
     from ..core import denoise
-    from .scene_units import displacement_in_scene
+    from .scene_units import displacement_in_scene, length_in_scene
 
     surface, movable = mesh_bridge.read_surface_and_movable(obj)
     if movable is not None and not movable.any():
@@ -70,4 +72,7 @@ def denoise_and_measure(
         raise ValueError(f"‘{obj.name}’: {error}") from error
     if not result.report.is_stopped:
         mesh_bridge.write_vertices(obj, surface, result.vertices)
-    return MeasuredReport(result.report, *displacement_in_scene(obj, surface.vertices, result.vertices))
+    rms, maximum = displacement_in_scene(obj, surface.vertices, result.vertices)
+    noise = result.report.noise
+    sigma = 0.0 if noise is None else length_in_scene(obj, noise.sigma)
+    return MeasuredReport(result.report, rms, maximum, sigma)

@@ -10,6 +10,7 @@ import bpy
 
 from . import mesh_bridge, targets
 from .band_settings import EQUALIZER_NAMES, GAIN_NAMES, EqualizerMixin
+from .filled_reports import forget_estimate
 from .scene_units import displacement_in_scene, length_text
 from .setting_values import as_typed
 from .settings import FrameMixin
@@ -110,6 +111,7 @@ class OBJECT_OT_framelet_equalize(FrameMixin, EqualizerMixin, bpy.types.Operator
         )
         if not done:
             return {"CANCELLED"}
+        forget_estimate(context.window_manager.framelet_estimate, done)
         largest = max(maximum for _, maximum in done.values())
         self.report(
             {"INFO"},

@@ -4,14 +4,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from ..core import Comparison
+    from ..core import Comparison, NoiseEstimate
+    from ..core.denoising.report import DenoiseReport
     from .band_values import BandChoice, ColorRange
     from .denoise_object import MeasuredReport
-    from .report import FrameletBandRange, FrameletComparison, FrameletReport
+    from .estimate_noise import MeasuredNoise
+    from .report import FrameletBandRange, FrameletComparison, FrameletEstimate, FrameletNoise, FrameletReport
 
 SUMMED = (
     "n_vertices",
@@ -43,6 +45,45 @@ def fill_report(properties: FrameletReport, measured: Mapping[str, MeasuredRepor
     volumes = [report.volume_change for report in reports if report.volume_change is not None]
     properties.is_closed = len(volumes) == len(reports)
     properties.volume_change = 100.0 * max(volumes, key=abs, default=0.0)
+    properties.recipe = ", ".join(dict.fromkeys(report.recipe for report in reports if report.recipe))
+    texts = {_parameters_text(report) for report in reports}
+    properties.parameters = texts.pop() if len(texts) == 1 else "Different for each"
+    noises = [report.noise for report in reports if report.noise is not None]
+    properties.has_noise = len(noises) == len(reports)
+    if not properties.has_noise:
+        properties.noise_sigma = properties.noise_sigma_edges = 0.0
+        properties.is_impulsive = False
+        return
+    properties.noise_sigma = _rms([item.scene_sigma for item in measured.values()], counts)
+    properties.noise_sigma_edges = _rms([noise.sigma_edges for noise in noises], counts)
+    properties.is_impulsive = any(noise.is_impulsive for noise in noises)
+
+
+def fill_estimate(properties: FrameletEstimate, measured: Mapping[str, MeasuredNoise]) -> None:
+    """Take over the noise of objects, by name; what was known before is dropped."""
+    properties.objects.clear()
+    for name, item in measured.items():
+        _add_noise(properties, name, item.noise, item.scene_sigma)
+
+
+def fill_estimate_of_run(properties: FrameletEstimate, measured: Mapping[str, MeasuredReport]) -> None:
+    """Take over the noise that a denoising run measured; forget that of objects where it did not."""
+    forget_estimate(properties, measured)
+    if any(item.report.noise is not None for item in measured.values()):
+        properties.objects.clear()
+    for name, item in measured.items():
+        noise = item.report.noise
+        if noise is not None:
+            entry = _add_noise(properties, name, noise, item.scene_sigma)
+            entry.is_denoised, entry.recipe = True, item.report.recipe
+
+
+def forget_estimate(properties: FrameletEstimate, names: Iterable[str]) -> None:
+    """Drop the noise of objects whose meshes changed."""
+    for name in names:
+        index = properties.objects.find(name)
+        if index >= 0:
+            properties.objects.remove(index)
 
 
 def fill_comparison(properties: FrameletComparison, name: str, other: str, comparison: Comparison) -> None:
@@ -66,6 +107,24 @@ def fill_band_range(
     properties.minimum = -found.limit if choice.is_signed else 0.0
     properties.maximum, properties.largest = found.limit, found.largest
     properties.share = 100.0 * found.share
+
+
+def _add_noise(
+    properties: FrameletEstimate, name: str, noise: NoiseEstimate, scene_sigma: float
+) -> FrameletNoise:
+    """Add the noise of an object."""
+    entry = properties.objects.add()
+    entry.name, entry.sigma, entry.sigma_edges = name, scene_sigma, noise.sigma_edges
+    entry.is_impulsive = noise.is_impulsive
+    return entry
+
+
+def _parameters_text(report: DenoiseReport) -> str:
+    """Return the parameters that a run took from the noise, besides its iterations; empty if it took none."""
+    settings = report.settings
+    if report.noise is None or settings.method != "POSITIONS":
+        return ""
+    return f"λ {settings.lambda_:.3g}, μ {settings.mu:.3g}"
 
 
 def _rms(values: list[float], counts: list[int]) -> float:

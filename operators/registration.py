@@ -14,20 +14,30 @@ from .command_line import blender_command
 from .compare import OBJECT_OT_framelet_compare
 from .denoise import OBJECT_OT_framelet_denoise
 from .equalize import OBJECT_OT_framelet_equalize
+from .estimate_noise import OBJECT_OT_framelet_estimate_noise
 from .preparations import forget_preparations
-from .report import FrameletBandRange, FrameletComparison, FrameletReport
+from .report import (
+    FrameletBandRange,
+    FrameletComparison,
+    FrameletEstimate,
+    FrameletNoise,
+    FrameletReport,
+)
 from .settings import FrameletSettings
 from .show_band import OBJECT_OT_framelet_show_band
 from .synthesize import OBJECT_OT_framelet_synthesize
 
 classes = (
     FrameletSettings,
+    FrameletNoise,
+    FrameletEstimate,
     FrameletReport,
     FrameletComparison,
     FrameletBandRange,
     FrameletBands,
     FrameletEqualizer,
     OBJECT_OT_framelet_denoise,
+    OBJECT_OT_framelet_estimate_noise,
     OBJECT_OT_framelet_add_noise,
     OBJECT_OT_framelet_compare,
     OBJECT_OT_framelet_analyze,
@@ -42,6 +52,7 @@ POINTERS = (
     (bpy.types.Scene, "framelet_bands", FrameletBands),
     (bpy.types.Scene, "framelet_equalizer", FrameletEqualizer),
     (bpy.types.WindowManager, "framelet_report", FrameletReport),
+    (bpy.types.WindowManager, "framelet_estimate", FrameletEstimate),
     (bpy.types.WindowManager, "framelet_comparison", FrameletComparison),
     (bpy.types.WindowManager, "framelet_band_range", FrameletBandRange),
 )

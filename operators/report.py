@@ -8,7 +8,7 @@ The classes have no methods, for the reason given in `setting_values`; `filled_r
 from typing import Any
 
 import bpy
-from bpy.props import BoolProperty, FloatProperty, IntProperty, StringProperty
+from bpy.props import BoolProperty, CollectionProperty, FloatProperty, IntProperty, StringProperty
 
 
 def _length(name: str, description: str) -> Any:
@@ -19,6 +19,30 @@ def _length(name: str, description: str) -> Any:
 def _edges(name: str, description: str) -> Any:
     """Return the property of a length in mean edge lengths."""
     return FloatProperty(name=name, description=description, precision=3)
+
+
+_SIGMA = "Standard deviation of the noise along the normals, in"
+_IMPULSIVE = "Some vertices are displaced much more than others; the noise is that of the quieter ones"
+
+
+class FrameletNoise(bpy.types.PropertyGroup):
+    """The noise of one object as it was measured last; its `name` is the object's."""
+
+    sigma: _length("Noise", f"{_SIGMA} scene units")
+    sigma_edges: _edges("In Edge Lengths", f"{_SIGMA} mean edge lengths")
+    is_impulsive: BoolProperty(name="Impulsive", description=_IMPULSIVE)
+    is_denoised: BoolProperty(
+        name="Denoised", description="The noise is that before the last run, which removed it"
+    )
+    recipe: StringProperty(
+        name="Recipe", description="What automatic denoising chose; empty if it did not run"
+    )
+
+
+class FrameletEstimate(bpy.types.PropertyGroup):
+    """The noise of the objects that were measured last, by an estimate or by a denoising run."""
+
+    objects: CollectionProperty(type=FrameletNoise, name="Objects", description="The noise by object")
 
 
 class FrameletReport(bpy.types.PropertyGroup):
@@ -54,6 +78,16 @@ class FrameletReport(bpy.types.PropertyGroup):
     boundary_vertices: IntProperty(name="Boundary", description="Vertices on open borders")
     non_manifold_vertices: IntProperty(name="Non-Manifold", description="Vertices where the surface branches")
     loose_vertices: IntProperty(name="Loose", description="Vertices without a face; they do not move")
+    has_noise: BoolProperty(name="Noise Is Known", description="The noise of all objects was measured")
+    noise_sigma: _length("Noise", f"{_SIGMA} scene units, root mean square over all vertices")
+    noise_sigma_edges: _edges("In Edge Lengths", f"{_SIGMA} mean edge lengths")
+    is_impulsive: BoolProperty(name="Impulsive", description=f"Of any object: {_IMPULSIVE.lower()}")
+    recipe: StringProperty(
+        name="Recipe", description="What automatic denoising chose, separated by commas if objects differ"
+    )
+    parameters: StringProperty(
+        name="Parameters", description="What was taken from the measured noise; empty if nothing was"
+    )
     seconds: FloatProperty(name="Time", description="Seconds for all objects", precision=2)
 
 

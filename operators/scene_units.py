@@ -46,6 +46,21 @@ def displacement_in_scene(
     return float(np.sqrt(squares.mean())), float(np.sqrt(squares.max()))
 
 
+def length_in_scene(obj: bpy.types.Object, length: float) -> float:
+    """Return a length of no particular direction in scene units.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        Its scale counts; where it differs between the axes, as the root mean square over all directions.
+    length : float
+        In object space.
+    """
+    import numpy as np
+
+    return length * float(np.sqrt(np.square(linear_part(obj)).sum() / 3.0))
+
+
 def surface_in_scene(obj: bpy.types.Object, surface: SurfaceMesh) -> SurfaceMesh:
     """Return a surface with the rotation and scale of an object, but not its place in the scene."""
     import numpy as np
@@ -54,6 +69,12 @@ def surface_in_scene(obj: bpy.types.Object, surface: SurfaceMesh) -> SurfaceMesh
     if np.array_equal(part, np.eye(3)):
         return surface
     return surface.with_vertices(surface.vertices.astype(np.float64) @ part.T)
+
+
+def noise_text(scene: bpy.types.Scene, sigma: float, sigma_edges: float, is_impulsive: bool) -> str:
+    """Return the measured noise in words; `sigma` is in scene units."""
+    more = ", impulsive" if is_impulsive else ""
+    return f"{length_text(scene, sigma)} ({sigma_edges:.3f} edge lengths{more})"
 
 
 def length_text(scene: bpy.types.Scene, length: float) -> str:

@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
-from ..core.settings import PRESETS, DenoiseSettings
+from ..core.settings import DEFAULT_PRESET, PRESETS, DenoiseSettings
 
 if TYPE_CHECKING:
     import bpy
@@ -19,7 +19,11 @@ if TYPE_CHECKING:
 CUSTOM = "CUSTOM"
 
 DEFINING = ("method", "frame", "stencil", "shrinkage")
-"""The settings that make the algorithm; one that differs from the preset's makes it a custom combination."""
+"""The settings that make the algorithm; one that is used and differs from the preset's makes it a custom
+combination."""
+
+TUNED_NAMES = ("lambda_", "mu", "iterations")
+"""The settings that the tuning NOISE replaces by values of its own."""
 
 SETTING_NAMES = tuple(item.name for item in fields(DenoiseSettings))
 PROPERTY_NAMES = ("preset", *SETTING_NAMES)
@@ -36,6 +40,11 @@ _is_filling = False
 def has_effect(method: str, name: str) -> bool:
     """Tell whether a setting is used by a method."""
     return name not in _INFO or _INFO[name].has_effect(method)
+
+
+def is_replaced(method: str, tuning: str, name: str) -> bool:
+    """Tell whether a method uses a setting but takes its value from the measured noise."""
+    return tuning == "NOISE" and has_effect(method, "tuning") and name in TUNED_NAMES
 
 
 def fill(properties: Any, settings: DenoiseSettings, keep: tuple[str, ...] = ()) -> None:
@@ -66,7 +75,8 @@ def to_settings(properties: Any) -> DenoiseSettings:
     Parameters
     ----------
     properties : SettingsMixin
-        Scene settings or an operator. Values that were never set are those of the preset.
+        Scene settings or an operator. Values that were never set are those of the preset,
+        of a custom combination those of the default preset.
 
     Raises
     ------
@@ -75,7 +85,7 @@ def to_settings(properties: Any) -> DenoiseSettings:
     """
     rna = getattr(properties, "properties", properties)
     changes = {name: as_typed(getattr(rna, name)) for name in SETTING_NAMES if rna.is_property_set(name)}
-    base = PRESETS[rna.preset].settings if rna.preset != CUSTOM else DenoiseSettings()
+    base = PRESETS[rna.preset if rna.preset != CUSTOM else DEFAULT_PRESET].settings
     return base.with_changes(**changes)
 
 
@@ -114,5 +124,6 @@ def leave_preset(self: Any, _context: bpy.types.Context) -> None:
     if _is_filling or self.preset == CUSTOM:
         return
     settings = PRESETS[self.preset].settings
-    if any(getattr(self, name) != getattr(settings, name) for name in DEFINING):
+    names = [name for name in DEFINING if has_effect(settings.method, name)]
+    if any(getattr(self, name) != getattr(settings, name) for name in names):
         self.preset = CUSTOM

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Blender properties for the settings of a run, generated from the dataclass in `core.settings`."""
 
+from collections.abc import Iterable
 from dataclasses import Field, fields
 from typing import Any
 
@@ -13,6 +14,33 @@ from .setting_values import CUSTOM, DEFINING, FRAME_NAMES, follow_preset, leave_
 FIELDS = {item.name: item for item in fields(DenoiseSettings)}
 """The settings by name."""
 
+_DEFAULTS = PRESETS[DEFAULT_PRESET].settings
+
+_NUMBERED = {
+    "preset": (
+        "AUTO",
+        "TRI_1",
+        "TRI_2",
+        "QUAD_1",
+        "QUAD_2",
+        "FREE_FORM",
+        "PRISMATIC",
+        "BILATERAL",
+        CUSTOM,
+        "POSITIONS",
+    ),
+    "method": ("POSITIONS", "NORMALS", "BILATERAL", "AUTO"),
+}
+"""Lists whose items are shown in another order than they came in. Files hold the numbers of items, so that
+new ones go to the end here."""
+
+
+def _items(name: str, choices: Iterable[tuple[str, str, str]]) -> list[tuple[str, str, str, int]]:
+    """Return the items of a list with their numbers."""
+    items = list(choices)
+    order = _NUMBERED.get(name) or [item[0] for item in items]
+    return [(*item, order.index(item[0])) for item in items]
+
 
 def _preset_property() -> Any:
     """Return the property that names a preset."""
@@ -21,7 +49,7 @@ def _preset_property() -> Any:
     return bpy.props.EnumProperty(
         name="Preset",
         description="A named algorithm; choosing one sets all values below",
-        items=items,
+        items=_items("preset", items),
         default=DEFAULT_PRESET,
         options=set(),
         update=follow_preset,
@@ -34,11 +62,11 @@ def setting_property(item: Field, **options: Any) -> Any:
     common: dict[str, Any] = {
         "name": f"{info.label} {info.symbol}".strip(),
         "description": info.description,
-        "default": item.default,
+        "default": getattr(_DEFAULTS, item.name),
         "options": set(),
     } | options
     if info.choices:
-        return bpy.props.EnumProperty(items=[tuple(choice) for choice in info.choices], **common)
+        return bpy.props.EnumProperty(items=_items(item.name, info.choices), **common)
     common |= {"min": info.minimum, "max": info.maximum}
     if info.soft_maximum is not None:
         common["soft_max"] = info.soft_maximum

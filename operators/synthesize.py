@@ -6,6 +6,7 @@ import bpy
 
 from . import targets
 from .bands import synthesize_object
+from .filled_reports import forget_estimate
 from .scene_units import displacement_in_scene, length_text
 
 
@@ -31,6 +32,7 @@ class OBJECT_OT_framelet_synthesize(bpy.types.Operator):
         )
         if not done:
             return {"CANCELLED"}
+        forget_estimate(context.window_manager.framelet_estimate, done)
         largest = max(maximum for _, maximum in done.values())
         self.report(
             {"INFO"},

@@ -8,7 +8,7 @@ import bpy
 
 from ..operators import mesh_facts
 from ..operators.scene_units import length_text
-from ..operators.setting_values import has_effect
+from ..operators.setting_values import has_effect, is_replaced
 
 
 class FrameletPanel:
@@ -33,7 +33,10 @@ def draw_settings(
     names: tuple[str, ...],
     obj: bpy.types.Object | None = None,
 ) -> None:
-    """Draw those of the settings that the method uses, and whether the frame fits an object."""
+    """Draw those of the settings that the method uses, and whether the frame fits an object.
+
+    Those whose values are taken from the noise are grayed.
+    """
     column = settings_column(layout)
     for name in names:
         if not has_effect(settings.method, name):
@@ -41,7 +44,9 @@ def draw_settings(
         if name == "frame":
             draw_frame(column, settings, obj)
         else:
-            column.prop(settings, name)
+            row = column.row()
+            row.active = not is_replaced(settings.method, settings.tuning, name)
+            row.prop(settings, name)
 
 
 def draw_frame(

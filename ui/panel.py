@@ -10,11 +10,15 @@ from ..operators import mesh_facts
 from ..operators.add_noise import OBJECT_OT_framelet_add_noise
 from ..operators.compare import OBJECT_OT_framelet_compare
 from ..operators.denoise import OBJECT_OT_framelet_denoise
+from ..operators.estimate_noise import OBJECT_OT_framelet_estimate_noise
 from ..operators.setting_values import copy_settings, has_effect
 from . import band_panels
 from .layouts import FrameletPanel, draw_lengths, draw_settings, draw_value
 
 MAIN_NAMES = (
+    "method",
+    "strength",
+    "tuning",
     "frame",
     "levels",
     "lambda_",
@@ -27,7 +31,6 @@ MAIN_NAMES = (
     "iterations",
 )
 ADVANCED_NAMES = (
-    "method",
     "stencil",
     "shrinkage",
     "delta",
@@ -46,13 +49,15 @@ class VIEW3D_PT_framelet(FrameletPanel, bpy.types.Panel):
     bl_label = "Framelet"
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw the preset, the button, and the settings that matter most."""
+        """Draw the preset, the buttons, the noise, and the settings that matter most."""
         layout = self.layout
         settings = context.scene.framelet
         layout.prop(settings, "preset", text="")
         row = layout.row()
         row.scale_y = 1.5
         copy_settings(settings, row.operator(OBJECT_OT_framelet_denoise.bl_idname, icon="MOD_SMOOTH"))
+        layout.operator(OBJECT_OT_framelet_estimate_noise.bl_idname, icon="RNDCURVE")
+        _draw_noise(layout, context)
         draw_settings(layout, settings, MAIN_NAMES, context.active_object)
 
 
@@ -102,6 +107,13 @@ class VIEW3D_PT_framelet_last_run(FrameletPanel, bpy.types.Panel):
         ):
             if getattr(report, name):
                 draw_value(column, label, f"{getattr(report, name):,}")
+        if report.has_noise:
+            draw_lengths(column, context.scene, "Noise", report.noise_sigma, report.noise_sigma_edges)
+            if report.is_impulsive:
+                draw_value(column, "", "Impulsive")
+        for label, text in (("Chosen", report.recipe), ("From Noise", report.parameters)):
+            if text:
+                draw_value(column, label, text)
         draw_value(column, "Iterations", str(report.iterations))
         draw_value(column, "Time", f"{report.seconds:.2f} s")
 
@@ -129,6 +141,21 @@ class VIEW3D_PT_framelet_try_it(FrameletPanel, bpy.types.Panel):
         draw_lengths(column, context.scene, "RMS", comparison.rms_distance, comparison.rms_distance_edges)
         draw_lengths(column, context.scene, "Largest", comparison.max_distance, comparison.max_distance_edges)
         draw_value(column, "Flipped Faces", f"{comparison.flipped_faces:,}")
+
+
+def _draw_noise(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
+    """Draw the noise of the active object, if it was measured, and what was chosen for it."""
+    obj = context.active_object
+    entry = obj and context.window_manager.framelet_estimate.objects.get(obj.name)
+    if not entry:
+        return
+    column = layout.column(align=True)
+    label = "Noise Before" if entry.is_denoised else "Noise"
+    draw_lengths(column, context.scene, label, entry.sigma, entry.sigma_edges)
+    if entry.is_impulsive:
+        draw_value(column, "", "Impulsive")
+    if entry.recipe and context.scene.framelet.method == "AUTO":
+        draw_value(column, "Chosen", entry.recipe)
 
 
 classes = (

@@ -13,7 +13,9 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import Field, fields
 from typing import Any
 
-from ...core.settings import DEFAULT_PRESET, PRESETS, DenoiseSettings, SettingInfo
+from ...core.settings import DEFAULT_PRESET, METHODS, PRESETS, DenoiseSettings, SettingInfo
+from ..setting_values import has_effect, is_replaced
+from .messages import USAGE_ERROR, CommandError
 
 LONGEST_LIST = 60
 """Letters up to which the choices of an option stand beside its name; longer lists stand below it only."""
@@ -75,10 +77,38 @@ def add_frame_options(parser: argparse.ArgumentParser, names: Sequence[str]) -> 
 
 
 def settings_from(arguments: argparse.Namespace) -> DenoiseSettings:
-    """Return the settings of the preset, with the options that were given put over them."""
+    """Return the settings of the preset, with the options that were given put over them.
+
+    Raises
+    ------
+    CommandError
+        In one sentence, if an option was given that the method does not use.
+    """
     given = {item.name: getattr(arguments, item.name) for item in fields(DenoiseSettings)}
     changes = {name: value for name, value in given.items() if value is not None}
-    return PRESETS[arguments.preset].settings.with_changes(**changes)
+    settings = PRESETS[arguments.preset].settings.with_changes(**changes)
+    for name in changes:
+        if not has_effect(settings.method, name):
+            raise CommandError(_says_unused(name, arguments.preset, arguments.method), USAGE_ERROR)
+        if is_replaced(settings.method, settings.tuning, name):
+            raise CommandError(
+                f"{option_name(name)} has no effect with --tuning noise, which takes it from the measured "
+                "noise; leave one of them out.",
+                USAGE_ERROR,
+            )
+    return settings
+
+
+def _says_unused(name: str, preset: str, method: str | None) -> str:
+    """Say that a method does not use an option, and what to add: a method or else a preset."""
+    option = option_name(name)
+    if method is not None:
+        others = [item.identifier for item in METHODS if has_effect(item.identifier, name)]
+        return f"{option} has no effect with --method {as_word(method)}; use --method {as_word(others[0])}."
+    other = next(key for key, each in PRESETS.items() if has_effect(each.settings.method, name))
+    if preset == DEFAULT_PRESET:
+        return f"{option} has no effect with the preset {as_word(preset)}; add --preset {as_word(other)}."
+    return f"{option} has no effect with --preset {as_word(preset)}; use --preset {as_word(other)}."
 
 
 def _add_option(group: argparse._ArgumentGroup, item: Field, default: Any, default_text: str) -> None:
@@ -152,13 +182,16 @@ def _help(item: Field, default_text: str) -> str:
 
 
 def _default_text(name: str) -> str:
-    """Return the default of a field, and the presets that have another one."""
+    """Return the default of a field, the presets that have another one, and the methods that use it."""
     default = getattr(PRESETS[DEFAULT_PRESET].settings, name)
     text = _shown(default)
     for key, preset in PRESETS.items():
         value = getattr(preset.settings, name)
         if value != default:
             text += f"; preset {as_word(key)}: {_shown(value)}"
+    methods = [method.identifier for method in METHODS if has_effect(method.identifier, name)]
+    if len(methods) < len(METHODS):
+        text += f"; method {' or '.join(map(as_word, methods))} only"
     return text
 
 

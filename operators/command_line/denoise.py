@@ -18,6 +18,7 @@ from .staging import Staging, check_folder
 if TYPE_CHECKING:
     import bpy
 
+    from ...core import NoiseEstimate
     from ...core.denoising.report import DenoiseReport
     from .importing import Surfaces
     from .mesh_work import Outcome
@@ -31,7 +32,8 @@ def add_command(subparsers: argparse._SubParsersAction) -> None:
         description="Denoise the surface in a PLY, OBJ or STL file, or all mesh objects in the scene of a "
         ".blend file. Vertices move; their number and order, faces, UVs and colors stay.",
         usage="%(prog)s IN OUT [options]",
-        epilog="example: %(prog)s scan.ply clean.ply --preset tri-1 --lambda 0.4 --report clean.json",
+        epilog="example: %(prog)s scan.ply clean.ply --report clean.json\n"
+        "example: %(prog)s scan.ply clean.ply --preset tri-1 --lambda 0.4",
         formatter_class=HelpFormatter,
         allow_abbrev=False,
     )
@@ -122,6 +124,7 @@ def _denoise(source: Path, surfaces: Surfaces, settings: DenoiseSettings, messag
 def _describe_result(name: str, report: DenoiseReport) -> list[str]:
     """Say what was done to an object."""
     edge = report.mean_edge_length or 1.0
+    lines = [] if report.noise is None else [_describe_noise(report, report.noise)]
     volume = "" if report.volume_change is None else f"; volume {report.volume_change:+.3%}"
     return [
         f"Denoised {name} in {report.seconds:.2f} s: {count(report.iterations, 'iteration')}, "
@@ -131,4 +134,17 @@ def _describe_result(name: str, report: DenoiseReport) -> list[str]:
         f"  {count(report.flipped_faces, 'flipped face')}{volume}; vertices: "
         f"{report.irregular_vertices:,} irregular, {report.boundary_vertices:,} boundary, "
         f"{report.non_manifold_vertices:,} non-manifold, {report.loose_vertices:,} loose.",
+        *lines,
     ]
+
+
+def _describe_noise(report: DenoiseReport, noise: NoiseEstimate) -> str:
+    """Say how strong the noise was, and what was chosen for it."""
+    text = f"  noise of {noise.sigma:.4g} ({noise.sigma_edges:.3g} mean edge lengths)"
+    if noise.is_impulsive:
+        text += ", impulsive"
+    used = report.settings
+    if report.recipe:
+        return f"{text}; chosen for it: {report.recipe}."
+    iterations = count(used.iterations, "iteration")
+    return f"{text}; taken from it: λ {used.lambda_:.3g}, μ {used.mu:.3g}, {iterations}."

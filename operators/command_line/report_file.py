@@ -37,10 +37,11 @@ def write_report(
     preset : str
         Key of the preset that the settings started from.
     settings : DenoiseSettings
-        The settings used; their names in the file are those of the fields, so that
+        The settings asked for; their names in the file are those of the fields, so that
         ``DenoiseSettings(**report["settings"])`` gives them back.
     reports : sequence of (str, DenoiseReport)
-        For each object its name and report.
+        For each object its name and report, with the settings used, the measured noise and what was chosen
+        for it.
     skipped : sequence of (str, str)
         For each object that was left as it is its name and the reason.
     """

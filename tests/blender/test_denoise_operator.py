@@ -9,10 +9,13 @@ import pytest
 # isort: split
 # This module exists once bpy was imported.
 import bmesh
-from framelet.core import DenoiseSettings, add_noise, denoise
-from framelet.core.settings import PRESETS
+from framelet.core import DEFAULT_PRESET, PRESETS, DenoiseSettings, add_noise, denoise
 from framelet.operators import mesh_bridge
 from framelet.operators.denoise_object import denoise_object
+
+# A quick algorithm, for what all of them have in common.
+QUICK = "POSITIONS"
+QUICK_SETTINGS = PRESETS[QUICK].settings
 
 
 def noisy_monkey(name="Monkey", location=(0, 0, 0)):
@@ -71,8 +74,9 @@ def test_values_given_by_a_script_override_the_preset():
 
 def test_no_arguments_mean_the_default_preset_whatever_the_scene_says():
     obj = noisy_monkey()
-    expected = denoise(mesh_bridge.read_surface(obj), DenoiseSettings())
-    bpy.context.scene.framelet.lambda_ = 2.0
+    expected = denoise(mesh_bridge.read_surface(obj), PRESETS[DEFAULT_PRESET].settings)
+    bpy.context.scene.framelet.preset = "TRI_1"
+    bpy.context.scene.framelet.strength = 2.0
     bpy.ops.object.framelet_denoise()
     assert read(obj).tobytes() == expected.vertices.tobytes()
 
@@ -89,7 +93,7 @@ def test_denoise_object_equals_core_and_reports():
 def test_a_stopped_run_leaves_the_mesh():
     obj = noisy_monkey()
     before = read(obj)
-    report = denoise_object(obj, DenoiseSettings(), callback=lambda fraction, change: True)
+    report = denoise_object(obj, QUICK_SETTINGS, callback=lambda fraction, change: True)
     assert report.is_stopped
     assert read(obj).tobytes() == before.tobytes()
 
@@ -105,8 +109,8 @@ def test_edit_mode_moves_selected_visible_vertices_only():
     edit_mesh.verts[3].hide = True
     movable = is_selected.copy()
     movable[3] = False
-    expected = denoise(surface, DenoiseSettings(), movable=movable)
-    assert bpy.ops.object.framelet_denoise() == {"FINISHED"}
+    expected = denoise(surface, QUICK_SETTINGS, movable=movable)
+    assert bpy.ops.object.framelet_denoise(preset=QUICK) == {"FINISHED"}
     assert obj.mode == "EDIT"
     assert read(obj).tobytes() == expected.vertices.tobytes()
     bpy.ops.object.mode_set(mode="OBJECT")
@@ -122,7 +126,7 @@ def test_all_meshes_in_edit_mode_are_denoised():
     select_only(objects[0], objects[1])
     bpy.ops.object.mode_set(mode="EDIT")
     bpy.ops.mesh.select_all(action="SELECT")
-    bpy.ops.object.framelet_denoise()
+    bpy.ops.object.framelet_denoise(preset=QUICK)
     bpy.ops.object.mode_set(mode="OBJECT")
     changed = [read(obj).tobytes() != old.tobytes() for obj, old in zip(objects, before, strict=True)]
     assert changed == [True, True, False]
@@ -135,7 +139,7 @@ def test_all_selected_meshes_are_denoised_and_others_are_not():
     light = bpy.context.object
     before = [read(obj) for obj in objects]
     select_only(light, objects[0], objects[2])
-    bpy.ops.object.framelet_denoise()
+    bpy.ops.object.framelet_denoise(preset=QUICK)
     changed = [read(obj).tobytes() != old.tobytes() for obj, old in zip(objects, before, strict=True)]
     assert changed == [True, False, True]
     assert sorted(last_report().names.split(", ")) == ["A", "C"]
@@ -145,9 +149,9 @@ def test_a_mesh_of_two_objects_is_denoised_once():
     obj = noisy_monkey("A")
     twin = bpy.data.objects.new("Twin", obj.data)
     bpy.context.collection.objects.link(twin)
-    expected = denoise(mesh_bridge.read_surface(obj), DenoiseSettings())
+    expected = denoise(mesh_bridge.read_surface(obj), QUICK_SETTINGS)
     select_only(twin, obj)
-    bpy.ops.object.framelet_denoise()
+    bpy.ops.object.framelet_denoise(preset=QUICK)
     assert read(obj).tobytes() == expected.vertices.tobytes()
     assert last_report().names == "Twin", "the active object stands for the mesh"
     assert obj.data.users == 2
@@ -155,10 +159,10 @@ def test_a_mesh_of_two_objects_is_denoised_once():
 
 def test_modifiers_are_left_alone():
     obj = noisy_monkey()
-    expected = denoise(mesh_bridge.read_surface(obj), DenoiseSettings())
+    expected = denoise(mesh_bridge.read_surface(obj), QUICK_SETTINGS)
     obj.modifiers.new("Subdivision", "SUBSURF").levels = 1
     obj.modifiers.new("Mirror", "MIRROR")
-    bpy.ops.object.framelet_denoise()
+    bpy.ops.object.framelet_denoise(preset=QUICK)
     assert [modifier.type for modifier in obj.modifiers] == ["SUBSURF", "MIRROR"]
     assert read(obj).tobytes() == expected.vertices.tobytes()
 
@@ -173,8 +177,8 @@ def test_the_active_shape_key_is_denoised(rng):
     basis_before = [tuple(point.co) for point in basis.data]
     surface = mesh_bridge.read_surface(obj)
     assert np.array_equal(surface.vertices, wide)
-    expected = denoise(surface, DenoiseSettings())
-    bpy.ops.object.framelet_denoise()
+    expected = denoise(surface, QUICK_SETTINGS)
+    bpy.ops.object.framelet_denoise(preset=QUICK)
     assert read(obj).tobytes() == expected.vertices.tobytes()
     assert [tuple(point.co) for point in basis.data] == basis_before
     assert [tuple(vertex.co) for vertex in obj.data.vertices] == basis_before
@@ -188,7 +192,7 @@ def test_undo_restores(mode):
     if mode == "EDIT":
         bpy.ops.mesh.select_all(action="SELECT")
     bpy.ops.ed.undo_push(message="Before")
-    bpy.ops.object.framelet_denoise()
+    bpy.ops.object.framelet_denoise(preset=QUICK)
     bpy.ops.ed.undo_push(message="Denoise")
     assert read(bpy.data.objects["Monkey"]).tobytes() != before.tobytes()
     bpy.ops.ed.undo()

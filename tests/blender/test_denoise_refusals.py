@@ -4,7 +4,7 @@
 
 import bpy
 import pytest
-from framelet.core import DenoiseSettings, add_noise, denoise
+from framelet.core import DEFAULT_PRESET, PRESETS, add_noise, denoise
 from framelet.operators import mesh_bridge
 
 
@@ -72,7 +72,7 @@ def test_nothing_selected_in_edit_mode_gets_a_sentence():
 def test_good_meshes_are_denoised_beside_bad_ones(capfd):
     good = noisy_monkey("Good")
     bad = make_object("Bad", *BAD_MESHES["Not Finite"])
-    expected = denoise(mesh_bridge.read_surface(good), DenoiseSettings())
+    expected = denoise(mesh_bridge.read_surface(good), PRESETS[DEFAULT_PRESET].settings)
     select_only(bad, good)
     assert bpy.ops.object.framelet_denoise() == {"FINISHED"}
     assert read(good).tobytes() == expected.vertices.tobytes()

@@ -15,7 +15,8 @@ class Layout:
     """Records what a panel draws, checking that properties and operators exist."""
 
     def __init__(self, record=None):
-        self.record = {"prop": [], "label": [], "operator": [], "icon": []} if record is None else record
+        self.record = record or {"prop": [], "label": [], "operator": [], "icon": [], "grayed": []}
+        self.active = True
 
     def row(self, **_options):
         return Layout(self.record)
@@ -28,6 +29,8 @@ class Layout:
     def prop(self, data, name, **_options):
         assert name in data.bl_rna.properties
         self.record["prop"].append(name)
+        if not self.active:
+            self.record["grayed"].append(name)
 
     def prop_search(self, data, name, source, collection, **_options):
         assert collection in source.bl_rna.properties
@@ -78,8 +81,9 @@ def test_the_button_carries_the_scene_settings():
     scene_settings.preset = "TRI_1"
     scene_settings.mu = 4.0
     record = draw(panel.VIEW3D_PT_framelet)
-    assert record["operator"] == ["object.framelet_denoise"]
-    assert (record["values"].preset, record["values"].mu) == ("TRI_1", 4.0)
+    assert record["operator"] == ["object.framelet_denoise", "object.framelet_estimate_noise"]
+    values = record["object.framelet_denoise"]
+    assert (values.preset, values.mu) == ("TRI_1", 4.0)
 
 
 def test_menu_entries_carry_the_scene_settings():
@@ -99,6 +103,54 @@ def test_last_run_before_and_after():
     assert "Suzanne" in labels and "Open mesh" in labels
     assert re.fullmatch(r"[\d.]+ cm", labels[labels.index("RMS") + 1])
     assert re.fullmatch(r"\d+\.\d{3} edge lengths", labels[labels.index("RMS") + 3])
+    recipe = bpy.context.window_manager.framelet_report.recipe
+    assert labels[labels.index("Chosen") + 1] == recipe != ""
+    assert re.fullmatch(r"[\d.]+ c?m", labels[labels.index("Noise") + 1])
+    bpy.ops.object.framelet_denoise(preset="TRI_2")
+    labels = draw(panel.VIEW3D_PT_framelet_last_run)["label"]
+    assert not {"Noise", "Chosen", "From Noise"} & set(labels)
+
+
+def test_the_automatic_panel_is_calm():
+    shown = draw(panel.VIEW3D_PT_framelet)
+    assert shown["prop"] == ["preset", "method", "strength"]
+    assert shown["label"] == []
+
+
+@pytest.mark.parametrize("tuning", ["GIVEN", "NOISE"])
+def test_what_comes_from_the_noise_is_grayed(tuning):
+    settings = bpy.context.scene.framelet
+    settings.preset, settings.tuning = "POSITIONS", tuning
+    record = draw(panel.VIEW3D_PT_framelet)
+    assert record["prop"][:3] == ["preset", "method", "tuning"]
+    assert record["grayed"] == (["lambda_", "mu", "iterations"] if tuning == "NOISE" else [])
+    settings.preset = "BILATERAL"
+    settings.tuning = tuning
+    assert draw(panel.VIEW3D_PT_framelet)["grayed"] == []
+
+
+def test_the_noise_of_the_active_object_is_shown_once_it_is_measured():
+    bpy.ops.mesh.primitive_monkey_add()
+    bpy.ops.object.framelet_add_noise(sigma=0.1)
+    assert draw(panel.VIEW3D_PT_framelet)["label"] == []
+    bpy.ops.object.framelet_estimate_noise()
+    labels = draw(panel.VIEW3D_PT_framelet)["label"]
+    assert labels[0] == "Noise" and "Chosen" not in labels
+    assert re.fullmatch(r"[\d.]+ c?m", labels[1])
+    assert re.fullmatch(r"\d\.\d{3} edge lengths", labels[3])
+    bpy.ops.object.framelet_denoise()
+    labels = draw(panel.VIEW3D_PT_framelet)["label"]
+    recipe = bpy.context.window_manager.framelet_report.recipe
+    assert labels[0] == "Noise Before" and labels[labels.index("Chosen") + 1] == recipe
+    entry = bpy.context.window_manager.framelet_estimate.objects["Suzanne"]
+    for is_impulsive in (True, False):
+        entry.is_impulsive = is_impulsive
+        assert ("Impulsive" in draw(panel.VIEW3D_PT_framelet)["label"]) == is_impulsive
+    bpy.context.scene.framelet.preset = "TRI_2"
+    assert "Chosen" not in draw(panel.VIEW3D_PT_framelet)["label"]
+    bpy.context.scene.framelet.preset = "AUTO"
+    bpy.ops.mesh.primitive_cube_add()
+    assert draw(panel.VIEW3D_PT_framelet)["label"] == []
 
 
 def test_lengths_follow_the_units_of_the_scene():
@@ -146,11 +198,13 @@ def test_try_it_before_and_after():
 def test_bands_before_and_after():
     record = draw(band_panels.VIEW3D_PT_framelet_bands)
     assert record["operator"] == ["object.framelet_analyze"]
-    assert record["prop"] == ["max_megabytes"] and "Needs" not in record["label"]
+    assert record["prop"] == ["frame", "levels", "max_megabytes"] and "Needs" not in record["label"]
     bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=3)
     bpy.context.scene.framelet.levels = 2
     labels = draw(band_panels.VIEW3D_PT_framelet_bands)["label"]
     assert labels == ["Needs", "27 kB"]
+    bpy.context.scene.framelet.preset = "POSITIONS"
+    assert draw(band_panels.VIEW3D_PT_framelet_bands)["prop"] == ["max_megabytes"]
     bpy.ops.object.framelet_analyze(levels=2)
     record = draw(band_panels.VIEW3D_PT_framelet_bands)
     names = ("analyze", "show_band", "synthesize", "clear")
@@ -199,12 +253,13 @@ def test_only_what_counts_is_shown(content, rule):
     assert ("band" in shown, "level" in shown) == (content == "BAND", content != "LOW")
     assert ("component" in shown) == (content != "LEVEL")
     assert ("percentile" in shown, "limit" in shown) == (rule == "PERCENTILE", rule == "FIXED")
-    assert set(shown) - {"max_megabytes"} <= set(band_settings.SHOW_NAMES)
+    assert set(shown) - {"frame", "levels", "max_megabytes"} <= set(band_settings.SHOW_NAMES)
 
 
 def test_the_equalizer_shows_the_gains_of_its_levels():
     bpy.ops.mesh.primitive_ico_sphere_add()
     equalizer = bpy.context.scene.framelet_equalizer
+    bpy.context.scene.framelet.preset = "POSITIONS"
     for levels in (1, 6):
         equalizer.levels = levels
         shown = draw(band_panels.VIEW3D_PT_framelet_equalizer)["prop"]
@@ -212,7 +267,7 @@ def test_the_equalizer_shows_the_gains_of_its_levels():
 
 
 def test_the_frame_is_shown_somewhere_with_every_method():
-    for preset in ("AUTO", "BILATERAL"):
+    for preset in ("AUTO", "POSITIONS", "BILATERAL"):
         bpy.context.scene.framelet.preset = preset
         main = "frame" in draw(panel.VIEW3D_PT_framelet)["prop"]
         for each in band_panels.classes:
@@ -221,6 +276,7 @@ def test_the_frame_is_shown_somewhere_with_every_method():
 
 def test_frames_that_do_not_fit_are_shown_as_such():
     scene = bpy.context.scene
+    scene.framelet.preset = "POSITIONS"
     cases = {
         ("primitive_ico_sphere_add", "LINEAR_SPLINE"): [("For quads; this mesh has none", "ERROR")],
         ("primitive_ico_sphere_add", "BOX_SPLINE_111"): [],
@@ -252,6 +308,7 @@ def test_frames_that_do_not_fit_are_shown_as_such():
 
 def test_drawing_looks_at_a_mesh_once(monkeypatch):
     bpy.ops.mesh.primitive_ico_sphere_add()
+    bpy.context.scene.framelet.preset = "POSITIONS"
     mesh_facts.forget_facts()
     draw(panel.VIEW3D_PT_framelet)
 

@@ -13,6 +13,7 @@ from framelet.ui import menus
 
 OPERATORS = (
     "framelet_denoise",
+    "framelet_estimate_noise",
     "framelet_add_noise",
     "framelet_compare",
     "framelet_analyze",

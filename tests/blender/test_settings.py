@@ -11,6 +11,7 @@ from framelet.operators import setting_values as module
 from framelet.operators.settings import FrameletSettings
 
 FIELDS = {item.name: item for item in fields(DenoiseSettings)}
+DEFAULTS = PRESETS[DEFAULT_PRESET].settings
 OWNERS = [
     pytest.param(lambda: FrameletSettings.bl_rna, id="scene"),
     pytest.param(lambda: bpy.ops.object.framelet_denoise.get_rna_type(), id="operator"),
@@ -40,11 +41,11 @@ def test_fields_are_properties(owner):
             assert [value.identifier for value in prop.enum_items] == [
                 value.identifier for value in info.choices
             ]
-            assert prop.default == item.default
+            assert prop.default == getattr(DEFAULTS, name)
         else:
             assert prop.hard_min == pytest.approx(info.minimum)
             assert prop.hard_max == pytest.approx(info.maximum)
-            assert prop.default == pytest.approx(item.default)
+            assert prop.default == pytest.approx(getattr(DEFAULTS, name))
             if info.soft_maximum is not None:
                 assert prop.soft_max == pytest.approx(info.soft_maximum)
 
@@ -61,9 +62,28 @@ def test_presets_are_items():
     assert [item.identifier for item in items] == [*PRESETS, module.CUSTOM]
 
 
+def test_numbers_in_files_stay():
+    """Files hold numbers: those of version 0.1.0 must keep their meaning."""
+    properties = FrameletSettings.bl_rna.properties
+    old = {
+        "preset": "AUTO TRI_1 TRI_2 QUAD_1 QUAD_2 FREE_FORM PRISMATIC BILATERAL CUSTOM",
+        "method": "POSITIONS NORMALS BILATERAL",
+        "stencil": "MEAN STRAIGHT ADAPTIVE",
+        "shrinkage": "BANDS VECTOR SCALAR",
+        "boundary": "FIXED ALONG FREE",
+    }
+    for name, identifiers in old.items():
+        numbers = {item.identifier: item.value for item in properties[name].enum_items}
+        assert [numbers[identifier] for identifier in identifiers.split()] == list(
+            range(len(identifiers.split()))
+        )
+        assert sorted(numbers.values()) == list(range(len(numbers)))
+
+
 def test_untouched_settings_are_the_default_preset(scene_settings):
     assert scene_settings.preset == DEFAULT_PRESET
-    assert module.to_settings(scene_settings) == DenoiseSettings() == PRESETS[DEFAULT_PRESET].settings
+    assert module.to_settings(scene_settings) == DEFAULTS
+    assert (scene_settings.preset, scene_settings.method) == ("AUTO", "AUTO")
 
 
 @pytest.mark.parametrize("preset", list(PRESETS))
@@ -94,16 +114,48 @@ def test_a_preset_keeps_the_number_of_threads(scene_settings):
     ],
 )
 def test_another_combination_is_custom(scene_settings, name, value):
+    scene_settings.preset = "POSITIONS"
     setattr(scene_settings, name, value)
     assert scene_settings.preset == module.CUSTOM
     assert module.to_settings(scene_settings) == DenoiseSettings(**{name: value})
 
 
-@pytest.mark.parametrize(("name", "value"), [("lambda_", 0.7), ("iterations", 3), ("boundary", "FREE")])
-def test_other_numbers_keep_the_preset(scene_settings, name, value):
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [("lambda_", 0.7), ("iterations", 3), ("boundary", "FREE"), ("strength", 0.5), ("tuning", "NOISE")],
+)
+@pytest.mark.parametrize("preset", [DEFAULT_PRESET, "POSITIONS"])
+def test_other_numbers_keep_the_preset(scene_settings, preset, name, value):
+    scene_settings.preset = preset
     setattr(scene_settings, name, value)
-    assert scene_settings.preset == DEFAULT_PRESET
-    assert module.to_settings(scene_settings) == DenoiseSettings(**{name: value})
+    assert scene_settings.preset == preset
+    assert module.to_settings(scene_settings) == PRESETS[preset].settings.with_changes(**{name: value})
+
+
+@pytest.mark.parametrize("name", ["frame", "stencil", "shrinkage"])
+@pytest.mark.parametrize("preset", [DEFAULT_PRESET, "PRISMATIC", "BILATERAL"])
+def test_what_a_preset_does_not_use_keeps_it(scene_settings, preset, name):
+    scene_settings.preset = preset
+    value = FIELDS[name].metadata["info"].choices[-1].identifier
+    setattr(scene_settings, name, value)
+    assert scene_settings.preset == preset
+    # It counts as soon as a method uses it.
+    scene_settings.method = "POSITIONS"
+    assert scene_settings.preset == module.CUSTOM
+    assert getattr(module.to_settings(scene_settings), name) == value
+
+
+@pytest.mark.parametrize("method", ["POSITIONS", "NORMALS", "BILATERAL"])
+def test_another_method_leaves_the_default_preset(scene_settings, method):
+    scene_settings.method = method
+    assert scene_settings.preset == module.CUSTOM
+    assert module.to_settings(scene_settings) == DenoiseSettings(method=method)
+
+
+def test_custom_with_nothing_set_is_what_the_fields_show(scene_settings):
+    scene_settings.preset = module.CUSTOM
+    assert module.to_settings(scene_settings) == DEFAULTS
+    assert scene_settings.method == DEFAULTS.method
 
 
 def test_choosing_custom_keeps_the_values(scene_settings):
@@ -150,5 +202,14 @@ def test_copying_takes_every_value(scene_settings):
 def test_a_method_hides_what_it_does_not_use():
     assert module.has_effect("POSITIONS", "lambda_") and not module.has_effect("POSITIONS", "sigma_c")
     assert module.has_effect("BILATERAL", "sigma_c") and not module.has_effect("BILATERAL", "lambda_")
+    assert module.has_effect("AUTO", "strength") and not module.has_effect("POSITIONS", "strength")
+    assert not module.has_effect("AUTO", "iterations")
     for name in ("preset", "method", "iterations", "boundary", "threads"):
         assert module.has_effect("POSITIONS", name) and module.has_effect("BILATERAL", name)
+
+
+def test_the_noise_replaces_three_settings_of_one_method():
+    for method in ("AUTO", "POSITIONS", "NORMALS", "BILATERAL"):
+        replaced = [name for name in FIELDS if module.is_replaced(method, "NOISE", name)]
+        assert replaced == (["lambda_", "mu", "iterations"] if method == "POSITIONS" else [])
+        assert not any(module.is_replaced(method, "GIVEN", name) for name in FIELDS)

@@ -112,7 +112,8 @@ def test_changes_are_checked_and_leave_the_original_alone():
 
 
 def test_presets():
-    assert PRESETS[DEFAULT_PRESET].settings == DenoiseSettings()
+    assert PRESETS["POSITIONS"].settings == DenoiseSettings()
+    assert PRESETS[DEFAULT_PRESET].settings == DenoiseSettings(method="AUTO")
     assert len({preset.label for preset in PRESETS.values()}) == len(PRESETS)
     one, two = PRESETS["TRI_1"].settings, PRESETS["TRI_2"].settings
     assert (one.stencil, one.shrinkage) == ("MEAN", "BANDS")

@@ -7,9 +7,11 @@ from dataclasses import fields
 
 import pytest
 from framelet.core.frame_catalog import FRAME_CATALOG
-from framelet.core.settings import PRESETS, DenoiseSettings
+from framelet.core.settings import DEFAULT_PRESET, PRESETS, DenoiseSettings
 from framelet.operators.command_line.arguments import as_word, option_name, settings_from
+from framelet.operators.command_line.messages import CommandError
 from framelet.operators.command_line.parser import make_parser
+from framelet.operators.setting_values import has_effect
 
 
 def parse(*options):
@@ -23,16 +25,72 @@ def test_names_of_options():
 
 
 def test_without_options_the_default_preset():
-    assert parse() == DenoiseSettings()
+    assert parse() == parse("--preset", "auto") == PRESETS[DEFAULT_PRESET].settings
+    assert parse().method == "AUTO"
 
 
 @pytest.mark.parametrize("item", fields(DenoiseSettings), ids=lambda item: item.name)
 def test_every_field_has_an_option(item):
     info = item.metadata["info"]
     values = [choice.identifier for choice in info.choices] or [item.default, info.minimum, info.maximum]
+    preset = preset_with(item.name)
     for value in values:
         for text in (str(value), as_word(str(value))):
-            assert getattr(parse(option_name(item.name), text), item.name) == value
+            settings = parse("--preset", preset, option_name(item.name), text)
+            assert getattr(settings, item.name) == value
+
+
+def preset_with(name):
+    """Return the first preset whose method uses a setting, as it is typed."""
+    return as_word(next(key for key, preset in PRESETS.items() if has_effect(preset.settings.method, name)))
+
+
+@pytest.mark.parametrize("item", fields(DenoiseSettings), ids=lambda item: item.name)
+@pytest.mark.parametrize("key", PRESETS)
+def test_options_without_effect_are_refused(key, item):
+    option = option_name(item.name)
+    text = as_word(str(getattr(PRESETS[key].settings, item.name)))
+    if has_effect(PRESETS[key].settings.method, item.name):
+        assert parse("--preset", as_word(key), option, text) == PRESETS[key].settings
+        return
+    with pytest.raises(CommandError) as caught:
+        parse("--preset", as_word(key), option, text)
+    sentence = str(caught.value)
+    assert sentence.startswith(f"{option} has no effect with ") and as_word(key) in sentence
+    assert sentence.count(". ") == 0 and sentence.endswith(f" --preset {preset_with(item.name)}.")
+    assert caught.value.exit_code == 2
+    # The advice works.
+    parse("--preset", preset_with(item.name), option, text)
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (["--lambda", "1"], "--lambda has no effect with the preset auto; add --preset positions."),
+        (
+            ["--preset", "bilateral", "--strength", "1"],
+            "--strength has no effect with --preset bilateral; use --preset auto.",
+        ),
+        (
+            ["--preset", "tri-1", "--method", "normals", "--lambda", "1"],
+            "--lambda has no effect with --method normals; use --method positions.",
+        ),
+        (
+            ["--preset", "tri-1", "--tuning", "noise", "--mu", "1"],
+            "--mu has no effect with --tuning noise, which takes it from the measured noise; "
+            "leave one of them out.",
+        ),
+    ],
+)
+def test_the_sentence_says_what_to_do(fails, words, sentence):
+    assert fails("denoise", "a.ply", "b.ply", *words, code=2) == f"framelet: {sentence}"
+
+
+def test_a_method_makes_its_options_count():
+    settings = parse("--method", "positions", "--lambda", "0.7")
+    assert settings == DenoiseSettings(method="POSITIONS", lambda_=0.7)
+    assert parse("--preset", "positions", "--tuning", "noise", "--levels", "2").tuning == "NOISE"
+    assert parse("--strength", "0.5", "--boundary", "free").strength == 0.5
 
 
 @pytest.mark.parametrize("key", PRESETS)
@@ -115,7 +173,8 @@ def test_version(command):
         (["denoise"], "required: IN, OUT"),
         (["denoise", "a.ply"], "required: OUT"),
         (["denoise", "a.ply", "b.ply", "c.ply"], "unrecognized arguments: c.ply"),
-        (["denoise", "a.ply", "b.ply", "--strength", "3"], "unrecognized arguments: --strength 3"),
+        (["denoise", "a.ply", "b.ply", "--force", "3"], "unrecognized arguments: --force 3"),
+        (["denoise", "a.ply", "b.ply", "--strength", "11"], "Strength is 11; it must be between 0 and 10"),
         (["denoise", "a.ply", "b.ply", "--iter", "3"], "unrecognized arguments: --iter 3"),
         (["denoise", "a.ply", "b.ply", "--lambda"], "--lambda: expected one argument"),
         (["denoise", "a.ply", "b.ply", "--lambda", "much"], "'much' is not a number"),
@@ -125,7 +184,7 @@ def test_version(command):
         (["denoise", "a.ply", "b.ply", "--stencil", "round"], "'round' is not one of mean, straight"),
         (
             ["denoise", "a.ply", "b.ply", "--preset", "best"],
-            "'best' is not one of auto, tri-1, tri-2, quad-1",
+            "'best' is not one of auto, positions, tri-1, tri-2",
         ),
         (["denoise", "a.ply", "b.ply", "--frame", "haar"], "'haar' is not one of auto, box-spline-111"),
         (["denoise", "a.ply", "b.ply", "--levels", "0"], "Levels is 0; it must be between 1 and 6"),

@@ -5,7 +5,7 @@
 
 import numpy as np
 import pytest
-from framelet.core import DenoiseSettings, SurfaceMesh, denoise
+from framelet.core import PRESETS, SurfaceMesh, denoise
 
 
 def positions(mesh):
@@ -67,7 +67,7 @@ def test_blend_to_blend(command, blend, grid, tmp_path):
     target = tmp_path / "deeper" / "out.blend"
     target.write_text("old")
     original = blend.read_bytes()
-    result = command("denoise", blend, target)
+    result = command("denoise", blend, target, "--preset", "positions")
     assert result.code == 0
     assert (
         result.err == "framelet: warning: ‘Wire’ has no faces; Framelet works on surfaces. It was skipped.\n"
@@ -85,7 +85,9 @@ def test_blend_to_blend(command, blend, grid, tmp_path):
         bpy.path.abspath(bpy.data.images["Skin"].filepath) == str(tmp_path / "textures" / "skin.png")
         or bpy.data.images["Skin"].filepath == "//../textures/skin.png"
     )
-    expected = denoise(SurfaceMesh.from_faces(grid.vertices, grid.faces), DenoiseSettings()).vertices
+    expected = denoise(
+        SurfaceMesh.from_faces(grid.vertices, grid.faces), PRESETS["POSITIONS"].settings
+    ).vertices
     np.testing.assert_allclose(positions(bpy.data.objects["Surface"].data), expected, atol=1e-5)
     np.testing.assert_allclose(positions(bpy.data.objects["Hidden"].data), 2 * expected, atol=1e-5)
 
@@ -93,9 +95,11 @@ def test_blend_to_blend(command, blend, grid, tmp_path):
 @pytest.mark.parametrize("suffix", [".ply", ".obj"])
 def test_blend_to_mesh_file(command, blend, grid, read_ply, read_obj, tmp_path, suffix):
     target = tmp_path / f"out{suffix}"
-    assert command("denoise", blend, target).code == 0
+    assert command("denoise", blend, target, "--preset", "positions").code == 0
     result = (read_ply if suffix == ".ply" else read_obj)(target)
-    expected = denoise(SurfaceMesh.from_faces(grid.vertices, grid.faces), DenoiseSettings()).vertices
+    expected = denoise(
+        SurfaceMesh.from_faces(grid.vertices, grid.faces), PRESETS["POSITIONS"].settings
+    ).vertices
     parts = np.split(result.vertices, 3)
     wanted = [expected + np.array([1, 2, 3]), expected + np.array([101, 2, 3]), 2 * expected]
     for part, points in zip(parts, wanted, strict=True):

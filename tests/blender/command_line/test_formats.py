@@ -5,16 +5,17 @@
 
 import numpy as np
 import pytest
-from framelet.core import DenoiseSettings, SurfaceMesh, denoise
+from framelet.core import PRESETS, SurfaceMesh, denoise
 
 TOLERANCE = 1e-5  # another order of edges and faces changes the rounding
+POSITIONS = ("--preset", "positions")
 
 
 @pytest.fixture
 def denoised(grid):
-    """The grid's positions after a run with default settings."""
+    """The grid's positions after a run with the preset POSITIONS."""
     surface = SurfaceMesh.from_faces(grid.vertices, grid.faces)
-    return denoise(surface, DenoiseSettings()).vertices
+    return denoise(surface, PRESETS["POSITIONS"].settings).vertices
 
 
 def same_faces(first, second):
@@ -25,7 +26,7 @@ def same_faces(first, second):
 
 def test_ply_keeps_order_faces_uvs_and_colors(command, grid, denoised, write_ply, read_ply, tmp_path):
     source = write_ply(tmp_path / "in.ply", grid.vertices, grid.faces, grid.colors, grid.uvs)
-    assert command("denoise", source, tmp_path / "out.ply").code == 0
+    assert command("denoise", source, tmp_path / "out.ply", *POSITIONS).code == 0
     result = read_ply(tmp_path / "out.ply")
     np.testing.assert_allclose(result.vertices, denoised, atol=TOLERANCE)
     assert not np.array_equal(result.vertices, grid.vertices)
@@ -39,7 +40,7 @@ def test_ply_keeps_order_faces_uvs_and_colors(command, grid, denoised, write_ply
 
 def test_obj_keeps_order_faces_and_uvs(command, grid, denoised, write_obj, read_obj, tmp_path):
     source = write_obj(tmp_path / "in.obj", grid.vertices, grid.faces, grid.uvs, "o Cube")
-    result = command("denoise", source, tmp_path / "out.obj")
+    result = command("denoise", source, tmp_path / "out.obj", *POSITIONS)
     assert (result.code, result.err) == (0, "")
     result = read_obj(tmp_path / "out.obj")
     np.testing.assert_allclose(result.vertices, denoised, atol=TOLERANCE)
@@ -52,8 +53,8 @@ def test_obj_keeps_order_faces_and_uvs(command, grid, denoised, write_obj, read_
 
 def test_stl(command, grid, denoised, write_ply, tmp_path):
     source = write_ply(tmp_path / "in.ply", grid.vertices, grid.faces)
-    assert command("denoise", source, tmp_path / "first.stl").code == 0
-    assert command("denoise", tmp_path / "first.stl", tmp_path / "second.stl").code == 0
+    assert command("denoise", source, tmp_path / "first.stl", *POSITIONS).code == 0
+    assert command("denoise", tmp_path / "first.stl", tmp_path / "second.stl", *POSITIONS).code == 0
     triangle = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("count", "<u2")])
     n_triangles = sum(len(face) - 2 for face in grid.faces)
     known = {row.tobytes() for row in denoised}
@@ -83,7 +84,7 @@ def test_formats_agree_to_the_last_bit(command, grid, write_ply, write_obj, read
 def test_obj_carries_all_digits(command, grid, write_obj, read_obj, tmp_path, scale):
     vertices = (grid.vertices * np.float32(scale)).astype(np.float32)
     source = write_obj(tmp_path / "in.obj", vertices, grid.faces)
-    assert command("denoise", source, tmp_path / "out.obj", "--lambda", "0").code == 0
+    assert command("denoise", source, tmp_path / "out.obj", *POSITIONS, "--lambda", "0").code == 0
     result = read_obj(tmp_path / "out.obj").vertices
     np.testing.assert_allclose(result, vertices, rtol=1e-5, atol=1e-6 * scale)
 

@@ -31,7 +31,16 @@ def sheets(grid, write_ply, tmp_path):
 @pytest.mark.parametrize("stencil", [choice.identifier for choice in STENCILS])
 def test_every_frame_and_stencil(command, sheets, read_ply, tmp_path, frame, stencil):
     path, surface = sheets["mixed"]
-    words = ["--frame", as_word(frame), "--stencil", as_word(stencil), "--levels", "2"]
+    words = [
+        "--preset",
+        "positions",
+        "--frame",
+        as_word(frame),
+        "--stencil",
+        as_word(stencil),
+        "--levels",
+        "2",
+    ]
     result = command("denoise", path, tmp_path / "out.ply", *words)
     assert (result.code, result.err) == (0, "")
     expected = denoise(surface, DenoiseSettings(frame=frame, stencil=stencil, levels=2)).vertices
@@ -43,7 +52,8 @@ def test_every_frame_and_stencil(command, sheets, read_ply, tmp_path, frame, ste
 def test_levels_change_the_result(command, sheets, read_ply, tmp_path):
     results = []
     for levels in "123":
-        assert command("denoise", sheets["quads"][0], tmp_path / "out.ply", "--levels", levels).code == 0
+        words = ["--preset", "positions", "--levels", levels]
+        assert command("denoise", sheets["quads"][0], tmp_path / "out.ply", *words).code == 0
         results.append(read_ply(tmp_path / "out.ply").vertices)
     assert np.abs(results[1] - results[0]).max() > 1e-3
     assert np.abs(results[2] - results[1]).max() > 1e-3
@@ -70,8 +80,9 @@ def test_every_preset(command, fails, sheets, read_ply, tmp_path, kind, key):
 )
 def test_auto_is_the_frame_that_fits(command, sheets, read_ply, tmp_path, kind, frame):
     results = []
-    for words in ([], ["--preset", "auto"], ["--frame", frame]):
-        assert command("denoise", sheets[kind][0], tmp_path / "out.ply", *words).code == 0
+    for words in ([], ["--frame", "auto"], ["--frame", frame]):
+        options = ["--preset", "positions", *words]
+        assert command("denoise", sheets[kind][0], tmp_path / "out.ply", *options).code == 0
         results.append(read_ply(tmp_path / "out.ply").vertices)
     np.testing.assert_array_equal(results[1], results[0])
     np.testing.assert_array_equal(results[2], results[0])
@@ -93,6 +104,8 @@ def test_what_does_not_fit_is_refused(fails, sheets, tmp_path, name, words, mess
         command = [name, path, "--out", tmp_path / "out.npz"]
     else:
         command = [name, path, tmp_path / "out.ply"]
+    if name == "denoise":
+        words = ["--preset", "positions", *words]
     if name == "equalize":
         n_levels = int(words[1]) if words[0] == "--levels" else 1
         command += ["--gains", ",".join(["0.5"] * n_levels)]

@@ -8,7 +8,7 @@ from dataclasses import fields
 
 import bpy
 import pytest
-from framelet.core import PRESETS, DenoiseReport, DenoiseSettings
+from framelet.core import PRESETS, DenoiseReport, DenoiseSettings, NoiseEstimate, SurfaceMesh, denoise
 
 
 @pytest.fixture
@@ -26,6 +26,28 @@ def test_settings_can_be_used_again(report):
     expected = PRESETS["TRI_1"].settings.with_changes(lambda_=0.7)
     assert DenoiseSettings(**report["settings"]) == expected
     assert report["preset"] == "TRI_1"
+
+
+def test_settings_that_were_used(report):
+    (entry,) = report["objects"]
+    assert entry["settings"] == report["settings"]
+    assert (entry["noise"], entry["recipe"]) == (None, "")
+
+
+def test_noise_and_what_was_chosen(command, grid, write_ply, tmp_path):
+    source = write_ply(tmp_path / "in.ply", grid.vertices, grid.faces)
+    options = ["--strength", "0.9", "--report", tmp_path / "report.json"]
+    result = command("denoise", source, tmp_path / "out.ply", *options)
+    assert result.code == 0
+    report = json.loads((tmp_path / "report.json").read_text(encoding="utf-8"))
+    (entry,) = report["objects"]
+    expected = denoise(SurfaceMesh.from_faces(grid.vertices, grid.faces)).report
+    assert report["preset"] == "AUTO"
+    assert DenoiseSettings(**entry["settings"]) == DenoiseSettings(method="AUTO", strength=0.9)
+    assert list(entry["noise"]) == [item.name for item in fields(NoiseEstimate)]
+    assert entry["noise"]["sigma_edges"] == pytest.approx(expected.noise.sigma_edges, rel=1e-4)
+    assert entry["recipe"] and f"chosen for it: {entry['recipe']}." in result.out
+    assert f"noise of {entry['noise']['sigma']:.4g} (" in result.out
 
 
 def test_versions_and_names(report, tmp_path):

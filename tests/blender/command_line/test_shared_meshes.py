@@ -15,9 +15,16 @@ REFUSED = {
 }
 
 
-@pytest.mark.parametrize("name", ["scan/angel25k.ply", "scan/iron86k.ply", "tri/bunny_scan35k.ply"])
-def test_scans(command, shared_meshes, read_ply, tmp_path, name):
-    result = command("denoise", shared_meshes / name, tmp_path / "out.ply")
+@pytest.mark.parametrize(
+    ("name", "preset"),
+    [
+        ("scan/angel25k.ply", "auto"),
+        ("scan/iron86k.ply", "positions"),
+        ("tri/bunny_scan35k.ply", "free-form"),
+    ],
+)
+def test_scans(command, shared_meshes, read_ply, tmp_path, name, preset):
+    result = command("denoise", shared_meshes / name, tmp_path / "out.ply", "--preset", preset)
     assert (result.code, result.err) == (0, "")
     before, after = read_ply(shared_meshes / name), read_ply(tmp_path / "out.ply")
     assert after.vertices.shape == before.vertices.shape

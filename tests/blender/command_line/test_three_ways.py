@@ -4,6 +4,7 @@
 """Operator in a script, command in Blender, console command: the same vertices to the last bit."""
 
 import os
+import re
 import subprocess
 
 import numpy as np
@@ -14,7 +15,7 @@ TIMEOUT = 120
 # The bpy module stands in for `blender -b --python`.
 SCRIPT = """
 import bpy, numpy as np
-source, target = sys.argv[1:]
+source, target, settings = sys.argv[1:]
 package.register()
 try:
     bpy.ops.wm.read_factory_settings(use_empty=True)
@@ -22,7 +23,8 @@ try:
     obj = bpy.context.scene.objects[0]
     bpy.context.view_layer.objects.active = obj
     obj.select_set(True)
-    assert bpy.ops.object.framelet_denoise(lambda_=0.6, iterations=7) == {"FINISHED"}
+    settings = eval(settings)
+    assert bpy.ops.object.framelet_denoise(**settings) == {"FINISHED"}
     vertices = np.empty((len(obj.data.vertices), 3), np.float32)
     obj.data.attributes["position"].data.foreach_get("vector", vertices.ravel())
     np.save(target, vertices)
@@ -55,12 +57,17 @@ def run_python(python, launcher):
     return run
 
 
-def test_three_ways_give_the_same_bits(run_python, grid, write_ply, read_ply, tmp_path):
+@pytest.mark.parametrize(
+    "settings",
+    [{"preset": "POSITIONS", "lambda_": 0.6, "iterations": 7}, {"strength": 0.8}],
+    ids=["positions", "default"],
+)
+def test_three_ways_give_the_same_bits(run_python, grid, write_ply, read_ply, tmp_path, settings):
     from framelet.operators.command_line import blender_command
 
     source = write_ply(tmp_path / "in.ply", grid.vertices, grid.faces)
-    options = ["--lambda", "0.6", "--iterations", "7"]
-    script = run_python(SCRIPT, source, tmp_path / "script.npy")
+    options = [word for name, value in settings.items() for word in (f"--{name.rstrip('_')}", str(value))]
+    script = run_python(SCRIPT, source, tmp_path / "script.npy", settings)
     assert script.returncode == 0, script.stderr
     console = run_python(CONSOLE, "denoise", source, tmp_path / "console.ply", *options)
     assert console.returncode == 0, console.stderr
@@ -77,10 +84,13 @@ def test_console_command_prints_only_its_own_lines(run_python, grid, write_ply, 
     source = write_ply(tmp_path / "in.ply", grid.vertices, grid.faces)
     result = run_python(CONSOLE, "denoise", source, tmp_path / "out.ply")
     assert (result.returncode, result.stderr) == (0, "")
-    first, done, counts, last = result.stdout.splitlines()
+    first, done, counts, noise, last = result.stdout.splitlines()
     assert first.startswith(f"Read {source}: {len(grid.vertices)} vertices, {len(grid.faces)} faces, size ")
     assert done.startswith("Denoised in in ")
     assert "1 loose" in counts
+    assert re.fullmatch(
+        r"  noise of \S+ \(\S+ mean edge lengths\)(, impulsive)?; chosen for it: [A-Z].*\.", noise
+    )
     assert last == f"Wrote {tmp_path / 'out.ply'}."
 
 
