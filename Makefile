@@ -61,6 +61,10 @@ test-installed-5.2: ## Install the zip on Blender 5.2 and test it
 $(BLENDERS:%=test-installed-%): test-installed-%: extension
 	FRAMELET_ZIP="$(ZIP)" $(ENVIRONMENT) run bpy-$* --timeout $(TIMEOUT) -- -m pytest tests/installed
 
+.PHONY: benchmark-speed
+benchmark-speed: ## Measure seconds and memory up to 4 million vertices, beside other programs
+	$(ENVIRONMENT) run speed -- tests/benchmarks/speed/run.py
+
 .PHONY: extension
 extension: ## Validate the extension and build its zip into build/
 	$(ENVIRONMENT) run bpy-$(BLENDER) --timeout $(TIMEOUT) -- .ci/extension.py
