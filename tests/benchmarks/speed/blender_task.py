@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One measurement inside Blender, as JSON: `blender_task.py MESH SETTINGS`, MESH a file or `monkey:LEVELS`."""
+"""One measurement inside Blender, as JSON: `blender_task.py MESH SETTINGS`; MESH may be `monkey:5`."""
 
 import json
 import os
