@@ -65,6 +65,10 @@ $(BLENDERS:%=test-installed-%): test-installed-%: extension
 quality: ## Compare with published filters, an hour or more; tables and plot go to docs
 	$(ENVIRONMENT) run benchmarks -- tests/benchmarks/quality/run.py --update
 
+.PHONY: benchmark-speed
+benchmark-speed: ## Measure seconds and memory up to 4 million vertices, beside other programs
+	$(ENVIRONMENT) run speed -- tests/benchmarks/speed/run.py
+
 .PHONY: extension
 extension: ## Validate the extension and build its zip into build/
 	$(ENVIRONMENT) run bpy-$(BLENDER) --timeout $(TIMEOUT) -- .ci/extension.py

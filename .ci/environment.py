@@ -37,6 +37,7 @@ PYTHONS = {
     "bpy-4.2": ("3.11",),
     "bpy-4.5": ("3.11",),
     "bpy-5.2": ("3.13",),
+    "speed": ("3.11", "3.12", "3.13"),
 }
 
 # Folders that hold Pythons but are often missing from PATH; {v} is a version like 3.11.

@@ -15,7 +15,7 @@ from numpy.typing import DTypeLike, NDArray
 
 from ..blocks import Blocks
 from ..settings import DEFAULT_PRESET, PRESETS, DenoiseSettings
-from ..surface.checks import check_surface
+from ..surface.checks import check_positions, check_surface
 from ..surface.connectivity import Connectivity, connect
 from ..surface.locality import Reordering, is_scattered, reorder, spatial_order
 from ..surface.normalization import normalize
@@ -125,16 +125,14 @@ def prepare(
             reordering = reordering.with_vertices(surface.vertices)
     blocks = Blocks(settings.threads)
     with blocks:
-        edge = check_surface(surface, blocks)
-        if connectivity is None:
-            if is_scattered(surface):
-                reordering = reorder(surface, spatial_order(surface.vertices), blocks)
-            connectivity = (
-                connect(surface, blocks)
-                if reordering is None
-                else connect(reordering.surface, blocks, reordering.vertex_order)
-            )
+        check_positions(surface)  # while its vertices have the numbers that the caller knows
+        if connectivity is None and is_scattered(surface):
+            reordering = reorder(surface, spatial_order(surface.vertices), blocks)
         ordered = surface if reordering is None else reordering.surface
+        edge = check_surface(ordered, blocks)
+        if connectivity is None:
+            labels = None if reordering is None else reordering.vertex_order
+            connectivity = connect(ordered, blocks, labels)
         normalized = normalize(ordered, connectivity, edge, blocks)
         transform = None
         if settings.method == "POSITIONS":

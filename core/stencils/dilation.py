@@ -63,7 +63,7 @@ def dilate(
     distances = {int(step) for step in steps}
     if far is not None:
         distances |= {int(step) * far_distance for step in steps}
-    points = vertices.T.astype(np.float64)
+    points = np.ascontiguousarray(vertices.T, np.float64)  # `take` would copy all of it each time
     offset, order = members.connectivity.ring_offset, _Order(members.connectivity.labels)
 
     near_by = spatial_order(vertices)  # the search shares its work among centers that lie close together

@@ -54,8 +54,13 @@ def fill_triangles(
     if boundary == "FREE":
         is_rim[:] = False
     regular = np.flatnonzero(found & is_regular)
-    for place, points in zip(RING, members.near_rows(regular, 6), strict=True):
-        builder.set(place, regular, points)
+
+    def fill_regular(start: int, stop: int) -> None:
+        part = regular[start:stop]
+        for place, points in zip(RING, members.near_rows(part, 6), strict=True):
+            builder.set(place, part, points)
+
+    blocks.run(fill_regular, len(regular))
     _fill_rim(builder, members, np.flatnonzero(found & is_rim), is_mean=rule == "MEAN")
     irregular = np.flatnonzero(found & ~is_regular & ~is_rim)
     unserved = irregular

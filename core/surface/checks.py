@@ -11,16 +11,8 @@ from .geometry import mean_edge_length
 from .surface_mesh import SurfaceMesh
 
 
-def check_surface(surface: SurfaceMesh, blocks: Blocks | None = None) -> float:
-    """Check that a mesh can be worked on, and return its mean edge length in scene units.
-
-    `blocks` are threads to work on.
-
-    Raises
-    ------
-    ValueError
-        In one sentence, if the mesh has no vertices or faces, a position that is not finite, or no size.
-    """
+def check_positions(surface: SurfaceMesh) -> None:
+    """Raise ValueError, in one sentence, if a mesh has no vertices or faces, or a position is not finite."""
     if not surface.n_vertices:
         raise ValueError("The mesh is empty; it needs vertices and faces.")
     if not surface.n_faces:
@@ -35,6 +27,19 @@ def check_surface(surface: SurfaceMesh, blocks: Blocks | None = None) -> float:
             "is not a finite point" if len(wrong) == 1 else f"and {len(wrong) - 1} more are not finite points"
         )
         raise ValueError(f"Vertex {wrong[0]} at ({position}) {count}; delete or move it first.")
+
+
+def check_surface(surface: SurfaceMesh, blocks: Blocks | None = None) -> float:
+    """Check that a mesh can be worked on, and return its mean edge length in scene units.
+
+    `blocks` are threads to work on.
+
+    Raises
+    ------
+    ValueError
+        In one sentence, if the mesh has no vertices or faces, a position that is not finite, or no size.
+    """
+    check_positions(surface)
     with np.errstate(over="ignore"):  # said in a sentence below
         edge = mean_edge_length(surface, blocks)
     if not edge > 0.0:

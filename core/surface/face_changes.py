@@ -37,10 +37,9 @@ def compare_faces(before: SurfaceMesh, after: SurfaceMesh, blocks: Blocks | None
     FaceChanges
         The volumes, as from `signed_volume`, mean something for closed and consistently oriented meshes.
     """
-    rows = coordinate_rows(before), coordinate_rows(after)
-    for points in rows if before.n_corners else ():
-        # Near the origin, so that the volume of a mesh far away loses no digits.
-        points -= points[:, before.corner_vertex[0], None]
+    # Near the origin, so that the volume of a mesh far away loses no digits.
+    origin = int(before.corner_vertex[0]) if before.n_corners else None
+    rows = coordinate_rows(before, blocks, origin), coordinate_rows(after, blocks, origin)
 
     def kernel(start: int, stop: int) -> tuple[int, float, float]:
         areas = [area_rows(points, before, start, stop) for points in rows]

@@ -11,9 +11,24 @@ from ..blocks import Blocks
 from .surface_mesh import SurfaceMesh
 
 
-def coordinate_rows(surface: SurfaceMesh) -> NDArray[np.float64]:
-    """Return a copy of the positions with coordinates in rows, shape (3, N), float64."""
-    return np.array(surface.vertices.T, np.float64, order="C")
+def coordinate_rows(
+    surface: SurfaceMesh, blocks: Blocks | None = None, origin: int | None = None
+) -> NDArray[np.float64]:
+    """Return a copy of the positions with coordinates in rows, shape (3, N), float64.
+
+    They are relative to the vertex `origin`, if it is given. `blocks` are threads to work on.
+    """
+    shift = np.zeros(3) if origin is None else surface.vertices[origin].astype(np.float64)
+    rows = np.empty((3, surface.n_vertices))
+
+    def kernel(start: int, stop: int) -> None:
+        part = rows[:, start:stop]
+        part[:] = surface.vertices[start:stop].T
+        if origin is not None:
+            part -= shift[:, None]
+
+    (blocks or Blocks(1)).run(kernel, surface.n_vertices)
+    return rows
 
 
 def mean_edge_length(surface: SurfaceMesh, blocks: Blocks | None = None) -> float:
@@ -24,7 +39,7 @@ def mean_edge_length(surface: SurfaceMesh, blocks: Blocks | None = None) -> floa
     """
     if not surface.n_corners:
         return 0.0
-    points = coordinate_rows(surface)
+    points = coordinate_rows(surface, blocks)
     n_faces = np.bincount(surface.corner_edge, minlength=surface.n_edges)
 
     def kernel(start: int, stop: int) -> float:
@@ -52,7 +67,7 @@ def face_area_vectors(surface: SurfaceMesh, blocks: Blocks | None = None) -> NDA
     By Newell's formula, which serves planar and non-planar polygons alike: half the cross product of two
     edges for a triangle and half that of the diagonals for a quad. `blocks` are threads to work on.
     """
-    points = coordinate_rows(surface)
+    points = coordinate_rows(surface, blocks)
     vectors = np.empty((surface.n_faces, 3))
 
     def kernel(start: int, stop: int) -> None:

@@ -153,8 +153,9 @@ def reorder(
 
     sizes = surface.face_sizes()
     filled = np.minimum(surface.face_offset[:-1], max(surface.n_corners - 1, 0))
-    face_order = _coarse_order(corner_vertex[filled] if surface.n_corners else sizes, n_vertices)
-    edge_order = _coarse_order(edges[:, 0], n_vertices)
+    firsts = (corner_vertex[filled] if surface.n_corners else sizes, edges[:, 0])
+    orders = blocks.sized(1).run(lambda one, _: _coarse_order(firsts[one], n_vertices), 2)
+    face_order, edge_order = orders
     offset = np.concatenate(([0], np.cumsum(sizes[face_order]))).astype(np.int32)
     new_edge = _inverse(edge_order)
     moved_vertex, moved_edge = np.empty_like(corner_vertex), np.empty_like(corner_vertex)

@@ -103,7 +103,9 @@ def _make_corners(surface: SurfaceMesh, half_edges: HalfEdges, labels: NDArray[n
     # The partner of the incoming half-edge leaves the same vertex, in the next face counterclockwise.
     size = surface.common_face_size()
     if size:
-        following = np.roll(partner.reshape(-1, size), 1, axis=1).reshape(-1)
+        following = np.empty_like(partner)
+        for place in range(size):
+            following[place::size] = partner[(place - 1) % size :: size]
     else:
         following = partner[half_edges.previous_corner]
     first = np.full(surface.n_vertices, -1, np.int32)

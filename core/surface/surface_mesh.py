@@ -73,7 +73,9 @@ class SurfaceMesh:
         """Return, for each corner, the next corner of its face, shape (C,), int32."""
         size = self.common_face_size()
         if size:
-            return _turned(np.arange(self.n_corners, dtype=np.int32), size, -1)
+            following = np.arange(1, self.n_corners + 1, dtype=np.int32)
+            following[size - 1 :: size] -= np.int32(size)
+            return following
         following = np.arange(1, self.n_corners + 1, dtype=np.int32)
         filled = np.diff(self.face_offset) > 0
         following[self.face_offset[1:][filled] - 1] = self.face_offset[:-1][filled]
@@ -83,7 +85,9 @@ class SurfaceMesh:
         """Return, for each corner, the previous corner of its face, shape (C,), int32."""
         size = self.common_face_size()
         if size:
-            return _turned(np.arange(self.n_corners, dtype=np.int32), size, 1)
+            preceding = np.arange(-1, self.n_corners - 1, dtype=np.int32)
+            preceding[::size] += np.int32(size)
+            return preceding
         preceding = np.arange(-1, self.n_corners - 1, dtype=np.int32)
         filled = np.diff(self.face_offset) > 0
         preceding[self.face_offset[:-1][filled]] = self.face_offset[1:][filled] - 1
@@ -146,8 +150,3 @@ class SurfaceMesh:
         unique, edge = np.unique(keys, return_inverse=True)
         edges = np.stack(np.divmod(unique, max(len(positions), 1)), axis=1).astype(np.int32)
         return replace(bare, corner_edge=edge.reshape(-1)[: len(flat)].astype(np.int32), edges=edges)
-
-
-def _turned(corners: NDArray[np.int32], size: int, step: int) -> NDArray[np.int32]:
-    """Return per-corner values, shape (C,), of faces of one size, turned within each face."""
-    return np.roll(corners.reshape(-1, size), step, axis=1).reshape(-1)

@@ -1,0 +1,77 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One measurement of `framelet.core` in a process of its own: `core_task.py MESH.npz SETTINGS`, as JSON."""
+
+import json
+import sys
+
+import loading  # noqa: F401
+import numpy as np
+from framelet.core import PRESETS, DenoiseSettings, PreparationCache, SurfaceMesh, denoise
+from framelet.core.denoising import denoise as denoise_module
+from framelet.core.denoising import prepared as prepared_module
+from framelet.core.memory import estimated_bytes
+from shapes import read_mesh
+from stopwatch import Stopwatch, peak_bytes, triad_seconds
+
+BYTES_PER_ITERATION = 200
+"""What an iteration of Tri-2 has to move for each vertex: indices, neighbors, residuals and positions."""
+
+STAGES = (
+    (prepared_module, "check_surface", "check"),
+    (prepared_module, "spatial_order", "reorder"),
+    (prepared_module, "reorder", "reorder"),
+    (prepared_module, "connect", "connectivity"),
+    (prepared_module, "normalize", "normalize"),
+    (prepared_module, "make_transform", "stencils"),
+    (denoise_module, "split_bregman", "solve"),
+    (denoise_module, "normal_filter", "solve"),
+    (denoise_module, "bilateral_filter", "solve"),
+    (denoise_module, "displaced", "report"),
+    (denoise_module, "_report", "report"),
+)
+
+
+def settings_of(options):
+    """Return the settings of a preset with changes."""
+    preset, changes = options["preset"], options.get("changes", {})
+    return PRESETS[preset].settings.with_changes(**changes)
+
+
+def warm_up(settings):
+    """Import and set up what the first run would pay for."""
+    points = np.random.default_rng(0).normal(size=(4, 3))
+    mesh = SurfaceMesh.from_faces(points, [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)])
+    names = {"method": settings.method, "stencil": settings.stencil, "shrinkage": settings.shrinkage}
+    denoise(mesh, DenoiseSettings(**names, frame="BOX_SPLINE_111"))
+    triad_seconds(12000)
+
+
+def main():
+    """Measure and print."""
+    path, options = sys.argv[1], json.loads(sys.argv[2])
+    settings = settings_of(options)
+    warm_up(settings)
+    mesh = read_mesh(path)
+    before = peak_bytes()
+    watch = Stopwatch()
+    for module, name, stage in STAGES:
+        watch.wrap(module, name, stage)
+    cache = PreparationCache(max_bytes=2**40)
+    result = watch.run("all", lambda: denoise(mesh, settings, prepared=cache))
+    found = {"stages": dict(watch.seconds), "peak": peak_bytes() - before}
+    found["estimate"] = estimated_bytes(mesh.n_vertices, mesh.n_corners, settings)
+    if options.get("rerun"):
+        copy = mesh.with_vertices(mesh.vertices.copy())
+        again = settings.with_changes(lambda_=1.1 * settings.lambda_, sigma_n=1.1 * settings.sigma_n)
+        watch.run("rerun", lambda: denoise(copy, again, prepared=cache))
+        found["stages"]["rerun"] = watch.seconds["rerun"]
+    if settings.method == "POSITIONS" and settings.iterations > 1:
+        found["iteration"] = found["stages"]["solve"] / (settings.iterations - 1)
+        found["floor"] = triad_seconds(BYTES_PER_ITERATION * mesh.n_vertices)
+    found |= {"n_vertices": mesh.n_vertices, "n_faces": mesh.n_faces, "moved": result.report.n_moved}
+    sys.stdout.write("\n" + json.dumps(found) + "\n")
+
+
+if __name__ == "__main__":
+    main()

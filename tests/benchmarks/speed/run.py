@@ -1,0 +1,131 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Measure seconds and peak memory of Framelet and of other programs, stage by stage, each run by itself.
+
+    python3 .ci/environment.py run speed -- tests/benchmarks/speed/run.py
+
+Writes a table, a CSV file and a plot. Runs follow each other, so that none takes the other's cores.
+"""
+
+import argparse
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import loading
+from plan import OTHERS, QUICK_SIZES, SIZES, make_plan
+from shapes import torus_file
+from tables import COLUMNS, full_table, read_rows, seconds_table, target_table, write_rows
+
+FOLDER = Path(__file__).resolve().parent
+PAGE = loading.ROOT / "docs" / "benchmarks_speed.md"
+PLOT = loading.ROOT / "docs" / "images" / "speed.png"
+TIMEOUT = 900
+"""Seconds after which a run is given up."""
+
+
+def main():
+    """Run the benchmark and return the exit code."""
+    arguments = parse()
+    rows = read_rows(arguments.again) if arguments.again else measure(arguments)
+    sections = {"targets": target_table(rows), "seconds": seconds_table(rows), "all": full_table(rows)}
+    arguments.output.mkdir(parents=True, exist_ok=True)
+    text = "\n".join(f"## {name}\n\n{table}" for name, table in sections.items())
+    (arguments.output / "speed.md").write_text(text, encoding="utf-8")
+    write_rows(rows, arguments.output / "speed.csv")
+    say(text)
+    plots = [arguments.output / "speed.png"]
+    if arguments.update:
+        write_rows(rows, FOLDER / "results.csv")
+        update_page(sections)
+        plots.append(PLOT)
+    try:
+        from plot import draw
+    except ImportError:
+        say("There is no matplotlib here, so there is no plot.")
+    else:
+        for path in plots:
+            draw(rows, path)
+    return 0
+
+
+def parse():
+    """Return the options."""
+    parser = argparse.ArgumentParser(description="Measure seconds and peak memory.")
+    parser.add_argument("--sizes", type=int, nargs="+", help=f"numbers of vertices (default: {SIZES})")
+    parser.add_argument("--only", default="", metavar="TEXT", help="runs with this in their names")
+    parser.add_argument("--quick", action="store_true", help="small meshes, core only")
+    parser.add_argument("--no-blender", action="store_true", help="leave out the runs inside Blender")
+    parser.add_argument("--no-others", action="store_true", help=f"leave out {', '.join(OTHERS.values())}")
+    parser.add_argument(
+        "--blender", default="bpy-4.5", help="environment with Blender (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--output", type=Path, default=Path("build/benchmarks/speed"), help="folder for results"
+    )
+    parser.add_argument("--again", type=Path, metavar="CSV", help="only write tables and plot again")
+    parser.add_argument("--update", action="store_true", help="write the results into docs as well")
+    return parser.parse_args()
+
+
+def measure(arguments):
+    """Make all runs, one after the other, and return a row of the table for each."""
+    sizes = arguments.sizes or (QUICK_SIZES if arguments.quick else SIZES)
+    with_blender = not (arguments.quick or arguments.no_blender)
+    plan = make_plan(sizes, with_blender=with_blender, with_others=not arguments.no_others)
+    plan = [run for run in plan if arguments.only in run.what]
+    blender = python_of(arguments.blender) if any(run.kind == "blender" for run in plan) else ""
+    rows = []
+    for number, run in enumerate(plan, 1):
+        found = measure_one(run, arguments.output / "meshes", blender)
+        if "missing" in found:
+            say(f"[{number}/{len(plan)}] {run.what}, {run.size:,}: left out, {found['missing']}")
+            continue
+        stages = found.pop("stages")
+        order = {True: "shuffled", False: "natural"}[run.is_shuffled]
+        row = {"what": run.what, "order": run.source or order, "asked": run.size, **found, **stages}
+        rows.append({name: row.get(name, "") for name in COLUMNS})
+        write_rows(rows, arguments.output / "speed.csv")  # what is there is kept, whatever comes
+        say(f"[{number}/{len(plan)}] {run.what}, {found['n_vertices']:,}: {stages['all']:.2f} s")
+    return rows
+
+
+def measure_one(run, meshes, blender):
+    """Make one run in a process of its own and return what it found."""
+    source = run.source or str(torus_file(meshes.resolve(), run.size, run.is_shuffled))
+    python = blender if run.kind == "blender" else sys.executable
+    what = [run.name, source] if run.kind == "baseline" else [source, json.dumps(run.options)]
+    command = [python, str(FOLDER / f"{run.kind}_task.py"), *what]
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, timeout=TIMEOUT, check=False)
+    except subprocess.TimeoutExpired:
+        return {"missing": f"it takes more than {TIMEOUT} s"}
+    if done.returncode:
+        return {"missing": f"it failed: {done.stderr.strip().splitlines()[-1:]}"}
+    return json.loads(done.stdout.strip().splitlines()[-1])
+
+
+def python_of(environment):
+    """Return the Python of an environment."""
+    command = [sys.executable, str(loading.ROOT / ".ci" / "environment.py"), "path", environment]
+    return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
+
+
+def update_page(sections):
+    """Put the tables between the marks of the page in docs."""
+    text = PAGE.read_text(encoding="utf-8")
+    for name, table in sections.items():
+        begin, end = f"<!-- {name} -->", f"<!-- end of {name} -->"
+        head, _, rest = text.partition(begin)
+        text = f"{head}{begin}\n\n{table}\n{end}{rest.partition(end)[2]}"
+    PAGE.write_text(text, encoding="utf-8")
+
+
+def say(text):
+    """Print a line at once."""
+    print(text, flush=True)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
