@@ -23,7 +23,7 @@ PROBE = 0.01
 """How far vertices are moved, in mean edge lengths, to see how much a result follows the noise."""
 
 LEAST_RISK = 0.03
-"""In units of the variance of the noise; smaller risks count as this one, as the estimate is not that exact."""
+"""In units of the variance of the noise; smaller risks count as this one: the estimate is not so exact."""
 
 
 N_PROBES = (4, 8000)
@@ -96,7 +96,7 @@ def choose_recipes(
             divergences[index] += float(np.mean(signs[counted] * change[counted], dtype=np.float64)) / PROBE
             tick(share)
     divergences /= n_probes
-    choices = [(index,) for index in range(len(RECIPES))]
+    choices: list[tuple[int, ...]] = [(index,) for index in range(len(RECIPES))]
     choices += list(combinations(range(len(RECIPES)), 2))
     risks, roughness = [], []
     for choice in choices:

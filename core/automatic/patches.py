@@ -24,9 +24,9 @@ _SEED_CANDIDATES = 20000
 
 
 class Trial(NamedTuple):
-    """A part of a mesh: its vertices' numbers (n,), the faces that it has as a mesh, and which vertices count."""
+    """A part of a mesh: its vertices' numbers (n,), the part as a mesh, and which vertices count."""
 
-    vertices: NDArray[np.intp]
+    vertices: NDArray[np.integer]
     surface: SurfaceMesh
     counts: NDArray[np.bool_]
 
@@ -60,9 +60,9 @@ def trial_part(points: NDArray[np.floating], surface: SurfaceMesh) -> Trial:
     faces = np.flatnonzero(is_chosen)
     corners = _corners_of(surface, faces)
     vertices, local = np.unique(corners, return_inverse=True)
-    sizes = surface.face_sizes()[faces]
-    ends = np.cumsum(sizes)[:-1]
-    part = SurfaceMesh.from_faces(surface.vertices[vertices], np.split(local.reshape(-1), ends))
+    ends = np.cumsum(surface.face_sizes()[faces])[:-1]
+    polygons = [polygon.tolist() for polygon in np.split(local.reshape(-1), ends)]
+    part = SurfaceMesh.from_faces(surface.vertices[vertices], polygons)
     return Trial(vertices, part, is_inner[vertices])
 
 

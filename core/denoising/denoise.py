@@ -11,19 +11,21 @@ from numpy.typing import DTypeLike, NDArray
 
 from ..automatic.filter import automatic_filter
 from ..memory import check_memory
+from ..noise import NoiseEstimate, estimate_noise
 from ..normals.filter import normal_filter
-from ..noise import NoiseEstimate
 from ..settings import DEFAULT_PRESET, PRESETS, DenoiseSettings
 from ..surface.connectivity import Connectivity
 from ..surface.face_changes import compare_faces
 from ..surface.normalization import displaced
 from ..surface.surface_mesh import SurfaceMesh
+from ..transform import choose_frame
 from .bilateral import bilateral_filter
 from .constraints import find_constraints
 from .preparation_cache import PreparationCache
 from .prepared import Prepared, prepare
 from .report import Callback, DenoiseReport, DenoiseResult
 from .split_bregman import split_bregman
+from .tuning import tuned
 
 
 def denoise(
@@ -92,11 +94,17 @@ def denoise(
         movable = movable[reordering.vertex_order]
     with prepared.blocks.with_threads(settings.threads) as blocks:
         constraints = find_constraints(ordered, connectivity, settings, movable, dtype, prepared.corners)
-        noise, recipe = None, ""
+        noise: NoiseEstimate | None = None
+        recipe = ""
+        if settings.method == "POSITIONS" and settings.tuning == "NOISE":
+            noise = estimate_noise(ordered, connectivity, blocks)
+            settings = tuned(settings, choose_frame(settings.frame, connectivity), noise)
         if settings.method == "AUTO":
-            *solved, noise, recipe = automatic_filter(
+            found = automatic_filter(
                 noisy, ordered, connectivity, prepared.edge, settings, constraints, blocks, callback
             )
+            solved = found.points, found.iterations, found.is_stopped
+            noise, recipe = found.noise, found.recipe
         elif settings.method == "BILATERAL":
             solved = bilateral_filter(noisy, ordered, connectivity, settings, constraints, blocks, callback)
         elif settings.method == "NORMALS":
