@@ -22,9 +22,11 @@ from .recipes import RECIPES, NormalProblem, Recipe, unit_noise
 PROBE = 0.01
 """How far vertices are moved, in mean edge lengths, to see how much a result follows the noise."""
 
+SIGNLESS = 1e-3
+"""Scrambled numbers as near to 1/2 get no sign."""
+
 LEAST_RISK = 0.03
 """In units of the variance of the noise; smaller risks count as this one: the estimate is not so exact."""
-
 
 N_PROBES = (4, 8000)
 """Most probes, and the number of faces that one probe suffices for: small meshes need several."""
@@ -87,7 +89,9 @@ def choose_recipes(
     for probe in range(n_probes):
         # Signs and the sample of the noise are digits of different places of the same number.
         number = scrambled(points, part.surface, at_vertex, sigma, 1009.0 - 101.0 * probe)
-        signs = np.where(number < 0.5, -1, 1).astype(noisy.dtype)
+        apart = number - noisy.dtype.type(0.5)
+        # Heights of 0 give 0, as rounding would decide the sign.
+        signs = np.where(np.abs(apart) < SIGNLESS, 0, np.sign(apart))
         probed = points + noisy.dtype.type(PROBE) * signs * directions
         other = NormalProblem(probed, part.surface, connectivity, sigma, blocks, sample)
         other.unit = problem.unit

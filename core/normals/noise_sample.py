@@ -66,15 +66,17 @@ def scrambled(
 ) -> NDArray[np.floating]:
     """Return a number between 0 and 1 for each vertex, shape (N,), which looks random.
 
-    It is made from the height of the vertex over the faces around it, in units of sigma: its digits after
-    `periods` periods. So it does not depend on how vertices are numbered or how the mesh is turned.
+    It is made from the height of the vertex over the faces around it, in units of sigma, by a triangle wave
+    with so many periods. So it does not depend on how vertices are numbered or how the mesh is turned. The
+    wave has no jumps, as rounding would decide there, and is 1/2 where the height is 0, as at the corner of a
+    border: turning all faces over turns number into 1 - number.
     """
     normals = vertex_means(area_vectors(points, surface), at_vertex)
     normals = unit_columns(normals, np.zeros_like(normals))
     arm = points - vertex_means(face_centroids(points, surface), at_vertex)
     height = np.einsum("cn,cn->n", arm, normals)
-    number = height * points.dtype.type(periods / sigma)
-    return number - np.floor(number)
+    wave = height * points.dtype.type(periods / sigma) + points.dtype.type(0.25)
+    return points.dtype.type(2) * np.abs(wave - np.rint(wave))
 
 
 def noise_in_normals(
