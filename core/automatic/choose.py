@@ -11,9 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
-from ..normals.neighbors import faces_of_vertices
-from ..normals.noise_sample import normals_of, scrambled, vertex_means
+from ..normals.neighbors import Ragged, faces_of_vertices
+from ..normals.noise_sample import area_vectors, normals_of, scrambled, vertex_means
 from ..normals.pilot import unit_columns
+from ..normals.vertex_update import face_centroids
 from ..surface.connectivity import connect
 from ..surface.surface_mesh import SurfaceMesh
 from .patches import trial_part
@@ -30,6 +31,13 @@ LEAST_RISK = 0.03
 
 N_PROBES = (4, 8000)
 """Most probes, and the number of faces that one probe suffices for: small meshes need several."""
+
+
+LARGEST_RESPONSE = 3.0
+"""How much further than it was moved a vertex may be seen to move: a few that jump would drown all others."""
+
+WIDENINGS = 3
+"""Averages of normals over the faces around, so that strong noise does not tilt the directions."""
 
 
 def choose_recipes(
@@ -73,8 +81,7 @@ def choose_recipes(
     points = np.ascontiguousarray(noisy[:, part.vertices])
     connectivity = connect(part.surface, blocks)
     at_vertex = faces_of_vertices(part.surface)
-    directions = vertex_means(normals_of(points, part.surface), at_vertex)
-    directions = unit_columns(directions, np.zeros_like(directions))
+    directions = _wide_normals(points, part.surface, at_vertex)
     counted = part.counts & directions.any(axis=0)
     if not counted.any():
         return (RECIPES[0],)
@@ -84,7 +91,7 @@ def choose_recipes(
     share = 1.0 / ((1 + n_probes) * len(RECIPES))
     results, divergences = [], np.zeros(len(RECIPES))
     for recipe in RECIPES:
-        results.append(problem.run(recipe))
+        results.append(problem.run(recipe, is_unfolded=False))
         tick(share)
     for probe in range(n_probes):
         # Signs and the sample of the noise are digits of different places of the same number.
@@ -96,8 +103,10 @@ def choose_recipes(
         other = NormalProblem(probed, part.surface, connectivity, sigma, blocks, sample)
         other.unit = problem.unit
         for index, recipe in enumerate(RECIPES):
-            change = np.einsum("cn,cn->n", other.run(recipe) - results[index], directions)
-            divergences[index] += float(np.mean(signs[counted] * change[counted], dtype=np.float64)) / PROBE
+            moved = other.run(recipe, is_unfolded=False) - results[index]
+            follows = signs * np.einsum("cn,cn->n", moved, directions) / PROBE
+            follows = np.clip(follows, -LARGEST_RESPONSE, LARGEST_RESPONSE)
+            divergences[index] += float(np.mean(follows[counted], dtype=np.float64))
             tick(share)
     divergences /= n_probes
     choices: list[tuple[int, ...]] = [(index,) for index in range(len(RECIPES))]
@@ -110,6 +119,18 @@ def choose_recipes(
         risks.append(float(np.mean(q * q)) - sigma**2 + 2.0 * sigma**2 * divergence)
         roughness.append(_roughness(result, problem))
     return tuple(RECIPES[index] for index in choices[_best(risks, roughness, sigma)])
+
+
+def _wide_normals(
+    points: NDArray[np.floating], surface: SurfaceMesh, at_vertex: Ragged
+) -> NDArray[np.floating]:
+    """Return unit normals, shape (3, N), over a few rings of faces; zero at loose vertices."""
+    normals = area_vectors(points, surface)
+    for _ in range(WIDENINGS):
+        at_vertices = vertex_means(normals, at_vertex)
+        normals = face_centroids(at_vertices, surface)
+    at_vertices = vertex_means(normals, at_vertex)
+    return unit_columns(at_vertices, np.zeros_like(at_vertices))
 
 
 def _roughness(points: NDArray[np.floating], problem: NormalProblem) -> float:

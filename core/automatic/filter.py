@@ -25,6 +25,11 @@ LEAST_NOISE = 0.004
 CHOOSING_SHARE = 0.5
 """Share of the progress that choosing takes."""
 
+LARGEST_RATIO = 1.4
+"""Of impulsive noise the root mean square counts, up to so many times the noise of the quieter places: on
+coarse
+machine parts it is uncertain."""
+
 CLEAN = "Clean already"
 
 
@@ -79,7 +84,10 @@ def automatic_filter(
         If the run was stopped, or the mesh is clean, the noisy positions.
     """
     noise = estimate_noise(surface, connectivity, blocks)
-    sigma = settings.strength * (noise.rms if noise.is_impulsive else noise.sigma) / edge
+    level = noise.sigma
+    if noise.is_impulsive:
+        level = min(noise.rms, LARGEST_RATIO * noise.sigma) if noise.sigma > 0 else noise.rms
+    sigma = settings.strength * level / edge
     if sigma < LEAST_NOISE:
         return Automatic(noisy, 0, False, noise, CLEAN)
     done, total = 0.0, 1.0

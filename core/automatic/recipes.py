@@ -50,7 +50,7 @@ RECIPES = (
     Recipe("Round with edges", 0.12, (0.5, 0.5), 1.5, 5, 15),
     Recipe("Soft", 0.12, (0.8, 0.6), 1.5, 4, 12),
     Recipe("Fine relief", 0.12, (1.2, 1.2), 1.5, 4, 8),
-    *(Recipe(f"Smooth and coarse {k}", n_averages=k) for k in (2, 4, 8, 16, 32)),
+    *(Recipe(f"Smooth and coarse {k}", n_averages=k) for k in (2, 4, 8, 16, 32, 64)),
 )
 """From machine parts to organic shapes."""
 
@@ -168,9 +168,14 @@ class NormalProblem:
         return self.noisy + displacement
 
     def run(
-        self, recipe: Recipe, constraints: Constraints | None = None, tick: Tick = lambda _: None
+        self,
+        recipe: Recipe,
+        constraints: Constraints | None = None,
+        tick: Tick = lambda _: None,
+        *,
+        is_unfolded: bool = True,
     ) -> NDArray[np.floating]:
-        """Return denoised positions, shape (3, N), without folds as far as possible."""
+        """Return denoised positions, shape (3, N), if asked for without folds as far as possible."""
         if recipe.range_sigmas:
             normals = self.clean_normals(recipe, tick)
             points = self.fitted(normals, recipe.vertex_steps, constraints, tick)
@@ -178,6 +183,8 @@ class NormalProblem:
             points = smooth_positions(self.noisy, self.rings, recipe.n_averages)
             tick(0.0)
             normals = self._normals_around(points)
+        if not is_unfolded:
+            return points
         points = unfold(points, normals, self.surface, self._ring_mean)
         if constraints is not None:
             constraints.apply(points, self.noisy)
