@@ -18,6 +18,9 @@ Settings = Mapping[str, Any]
 FEWER_READINGS = 20_000
 """From this many faces on there are fewer readings of the filters of normals, for time."""
 
+FEWER_VALUES = 60_000
+"""From this many faces on there are fewer values of the knob, too."""
+
 
 class Reading(NamedTuple):
     """A result of a method."""
@@ -65,6 +68,10 @@ class Baseline:
     defaults: Settings
     knob: str
     values: tuple
+    fewer_values: tuple
+    """Those on large models."""
+    is_quick = False
+    """True if every value is tried on any model."""
     patience: int = 2
 
     def is_available(self) -> bool:
@@ -74,6 +81,10 @@ class Baseline:
     def serves(self, is_quad: bool) -> bool:
         """Tell whether the method is for models of quads, or of triangles."""
         return True
+
+    def values_on(self, case: Case) -> tuple:
+        """Return the values of the knob for a case."""
+        return self.fewer_values if case.model.clean.n_faces >= FEWER_VALUES else self.values
 
     def patience_on(self, case: Case) -> int:
         """Return the readings without improvement after which a run on a case is given up."""
@@ -100,9 +111,14 @@ class BilateralNormals(Baseline):
     }
     knob = "sigma_s"
     values = (0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5, 0.55, 0.6, 0.7, 0.8)
+    fewer_values = (0.25, 0.35, 0.5, 0.7)
     normal_iterations = (1, 2, 5, 10, 14, 20, 28, 40, 80)
     vertex_iterations = (5, 10, 20, 40)
     fewer_vertex_iterations = (10, 20)
+
+    def values_on(self, case: Case) -> tuple:
+        """Return the values of the knob for a case."""
+        return self.fewer_values if case.model.clean.n_faces >= FEWER_VALUES else self.values
 
     def patience_on(self, case):
         """Allow two numbers of normal iterations without improvement."""
@@ -142,6 +158,7 @@ class GuidedNormals(Baseline):
     }
     knob = "sigma_r"
     values = (0.1, 0.15, 0.2, 0.25, 0.35, 0.5, 0.7, 1.0)
+    fewer_values = (0.25, 0.5, 1.0)
     normal_iterations = (1, 2, 3, 5, 7, 10, 15, 20, 30, 40, 60)
     fewer_normal_iterations = (1, 2, 3, 5, 7, 10, 20, 40)
     patience = 2
@@ -167,6 +184,7 @@ class BilateralPositions(Baseline):
     defaults = {"sigma_s": 0.0, "iterations": PRESETS["BILATERAL"].settings.iterations}
     knob = "sigma_s"
     values = (0.05, 0.1, 0.15, 0.25, 0.4)
+    fewer_values = (0.15, 0.4)
     iterations = (2, 5, 10)
     patience = 2
 
@@ -187,9 +205,10 @@ class Taubin(Baseline):
     name = "TAUBIN"
     defaults = {"factors": "0.5/0.5", "iterations": 10}
     knob = "factors"
-    values = ("0.2/0.2", "0.33/0.34", "0.5/0.5", "0.5/0.53", "0.8/0.8")
-    iterations = (2, 4, 6, 10, 16, 24, 40, 64, 100)
+    values = fewer_values = ("0.2/0.2", "0.33/0.34", "0.5/0.5", "0.5/0.53", "0.8/0.8")
+    iterations = (2, 4, 6, 10, 16, 24, 40, 64, 100, 160, 250, 400)
     patience = 3
+    is_quick = True
 
     def is_available(self):
         """Tell whether the library is installed."""

@@ -10,9 +10,6 @@ from methods import Baseline, Reading
 FULL_GRID = 3000
 """Up to this many faces every value of the knob is tried; above, the search walks."""
 
-COARSE_GRID = 60_000
-"""From this many faces on every second value is left out."""
-
 
 class Found(NamedTuple):
     """The best reading, how good it is, and how many were tried."""
@@ -26,8 +23,8 @@ def tune(method: Baseline, case: Case, is_full: bool | None = None) -> Found:
     """Return the reading of a baseline with the smallest angle, the default's included.
 
     On small models every value of the knob is tried. On others the search starts in the middle and walks to
-    lower and to higher values as long as the angle falls; on large ones it skips every second value. In a run
-    with one value, readings stop after a number without improvement, the method's patience.
+    lower and to higher values as long as the angle falls; large ones have fewer values. In a run with one
+    value, readings stop after a number without improvement, the method's patience.
 
     Parameters
     ----------
@@ -40,8 +37,9 @@ def tune(method: Baseline, case: Case, is_full: bool | None = None) -> Found:
     """
     n_tried = 0
     best_of: dict[int, Found] = {}
-    n_faces = case.model.clean.n_faces
-    values = method.values[:: 2 if n_faces >= COARSE_GRID else 1]
+    values = method.values_on(case)
+    if is_full is None:
+        is_full = method.is_quick or case.model.clean.n_faces <= FULL_GRID
 
     def angle(k: int) -> float:
         nonlocal n_tried
@@ -59,7 +57,7 @@ def tune(method: Baseline, case: Case, is_full: bool | None = None) -> Found:
         return best_of[k].measured.angle
 
     last = len(values) - 1
-    if is_full if is_full is not None else n_faces <= FULL_GRID:
+    if is_full:
         for k in range(last + 1):
             angle(k)
     else:
