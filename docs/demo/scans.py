@@ -28,7 +28,7 @@ from meshes import copy_with_vertices  # noqa: E402
 from picture import DIRECTION, Column, View, render_picture  # noqa: E402
 
 IMAGES = ROOT / "docs" / "images"
-SIZE = 2.6
+SIZE = 2.4
 """Of a scan in the picture, so that the camera sees all of it."""
 
 
