@@ -88,7 +88,9 @@ def denoised(obj: bpy.types.Object) -> list[Column]:
     surface = mesh_bridge.read_surface(obj)
     auto = denoise(surface, PRESETS["AUTO"].settings)
     bilateral = denoise(surface, PRESETS["BILATERAL"].settings)
-    columns = [Column(obj, "Scan", f"noise of {auto.report.noise.sigma_edges:.2f} edges")]
+    noise = auto.report.noise
+    strength = (noise.rms if noise.is_impulsive else noise.sigma) / auto.report.mean_edge_length
+    columns = [Column(obj, "Scan", f"noise of {strength:.2f} edges")]
     for key, result, caption in (
         ("AUTO", auto, auto.report.recipe),
         ("BILATERAL", bilateral, f"{bilateral.report.iterations} iterations"),
