@@ -10,6 +10,7 @@ other people's and not part of Framelet.
 
 import os
 import sys
+from dataclasses import replace
 from math import radians
 from pathlib import Path
 from typing import NamedTuple
@@ -35,17 +36,19 @@ SIZE = 2.4
 class Scan(NamedTuple):
     """A file, how the scan is turned (degrees about x, y and z), and what the rows of its picture show.
 
-    A row is a place in the picture, from its middle to the right and up, and the width that is shown.
+    A row is a place in the picture, from its middle to the right and up, and the width that is shown. With
+    `strengths` AUTO runs with each of them.
     """
 
     name: str
     turn: tuple[float, float, float]
     rows: tuple[tuple[float, float, float], ...]
+    strengths: tuple[float, ...] = (1.0,)
 
 
 SCANS = (
     Scan("angel25k", (-120.0, 0.0, 0.0), ((0.0, 0.0, 2.8), (0.0, 0.0, 1.1), (-0.85, 0.4, 0.6))),
-    Scan("iron86k", (-90.0, 0.0, 0.0), ((0.0, 0.0, 2.8), (-0.45, 0.25, 1.1), (-0.05, 0.0, 0.6))),
+    Scan("iron86k", (-90.0, 0.0, 0.0), ((0.0, 0.0, 2.8), (-0.45, 0.25, 1.1), (-0.05, 0.0, 0.6)), (1.0, 3.0)),
     Scan("rabbit37k", (90.0, 0.0, 0.0), ((0.0, 0.0, 2.8), (-0.85, 0.05, 1.1), (0.25, -0.1, 0.6))),
 )
 HEIGHT = 260
@@ -63,7 +66,7 @@ def main() -> int:
         bpy.ops.wm.read_factory_settings(use_empty=True)
         with captured_output():
             obj = load_scan(path, scan.turn)
-        columns = denoised(obj)
+        columns = denoised(obj, scan.strengths)
         with captured_output():
             render_picture(columns, IMAGES / f"scan_{scan.name}.png", [view(*row) for row in scan.rows])
         print(f"Wrote scan_{scan.name}.png to {IMAGES}.", flush=True)
@@ -83,24 +86,23 @@ def load_scan(path: Path, turn: tuple[float, float, float]) -> bpy.types.Object:
     return obj
 
 
-def denoised(obj: bpy.types.Object) -> list[Column]:
+def denoised(obj: bpy.types.Object, strengths: tuple[float, ...]) -> list[Column]:
     """Return a scan, and what AUTO and the bilateral filter make of it."""
     surface = mesh_bridge.read_surface(obj)
-    auto = denoise(surface, PRESETS["AUTO"].settings)
-    bilateral = denoise(surface, PRESETS["BILATERAL"].settings)
-    noise = auto.report.noise
-    strength = (noise.rms if noise.is_impulsive else noise.sigma) / auto.report.mean_edge_length
-    columns = [Column(obj, "Scan", f"noise of {strength:.2f} edges")]
-    for key, result, caption in (
-        ("AUTO", auto, auto.report.recipe),
-        ("BILATERAL", bilateral, f"{bilateral.report.iterations} iterations"),
-    ):
+    columns = [Column(obj, "Scan", f"{surface.n_faces:,} triangles")]
+    auto = [replace(PRESETS["AUTO"].settings, strength=strength) for strength in strengths]
+    for settings in (*auto, PRESETS["BILATERAL"].settings):
+        result = denoise(surface, settings)
         report = result.report
-        columns.append(
-            Column(copy_with_vertices(obj, key, result.vertices), PRESETS[key].label, caption.lower())
-        )
+        title, caption = "Bilateral", f"{report.iterations} iterations"
+        if report.noise is not None:
+            title = "Automatic" if settings.strength == 1.0 else f"Strength {settings.strength:g}"
+            caption = report.recipe
+            noise = report.noise.rms if report.noise.is_impulsive else report.noise.sigma
+            print(f"Noise of {noise / report.mean_edge_length:.3f} edge lengths; {report.noise}")
+        columns.append(Column(copy_with_vertices(obj, title, result.vertices), title, caption))
         print(
-            f"{PRESETS[key].label}: {caption}; moved {report.displacement_rms / report.mean_edge_length:.3f} "
+            f"{title}: {caption}; moved {report.displacement_rms / report.mean_edge_length:.3f} "
             f"edge lengths (rms), {report.flipped_faces} faces turned over, {report.seconds:.1f} s.",
             flush=True,
         )
