@@ -99,7 +99,8 @@ def denoised(obj: bpy.types.Object, strengths: tuple[float, ...]) -> list[Column
             title = "Automatic" if settings.strength == 1.0 else f"Strength {settings.strength:g}"
             caption = report.recipe
             noise = report.noise.rms if report.noise.is_impulsive else report.noise.sigma
-            print(f"Noise of {noise / report.mean_edge_length:.3f} edge lengths; {report.noise}")
+            kind = "impulsive noise" if report.noise.is_impulsive else "noise"
+            print(f"Measured: {kind} of {noise / report.mean_edge_length:.3f} edge lengths.")
         columns.append(Column(copy_with_vertices(obj, title, result.vertices), title, caption))
         print(
             f"{title}: {caption}; moved {report.displacement_rms / report.mean_edge_length:.3f} "
