@@ -58,7 +58,7 @@ PALE_INK = 0.39
 """Grays as they are on the screen (sRGB)."""
 
 
-def render_picture(columns: Sequence[Column], path: Path) -> None:
+def render_picture(columns: Sequence[Column], path: Path, views: Sequence[View] = VIEWS) -> None:
     """Render meshes side by side into a PNG file.
 
     Parameters
@@ -67,11 +67,13 @@ def render_picture(columns: Sequence[Column], path: Path) -> None:
         The meshes from left to right, which stay hidden but for their own tiles.
     path : Path
         The file to write.
+    views : sequence of View, optional
+        What the rows show, from top to bottom; by default the monkey and its face.
     """
     scene = bpy.context.scene
     _prepare(scene)
     width = len(columns) * (TILE_WIDTH + GAP) + GAP
-    height = TEXT_HEIGHT + sum(view.height + GAP for view in VIEWS)
+    height = TEXT_HEIGHT + sum(view.height + GAP for view in views)
     sheet = np.ones((height, width, 4), np.float32)
     sheet[:, :, :3] = PAPER
     with TemporaryDirectory(prefix="framelet-") as folder:
@@ -84,7 +86,7 @@ def render_picture(columns: Sequence[Column], path: Path) -> None:
             column.obj.data.shade_flat()
             column.obj.hide_render = False
             top = TEXT_HEIGHT
-            for view in VIEWS:
+            for view in views:
                 _aim(scene, view)
                 tile = _render(scene, temporary, TILE_WIDTH, view.height)
                 _paste(sheet, tile, left, top)

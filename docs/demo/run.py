@@ -29,7 +29,7 @@ SIGMA = 0.2
 """Noise in mean edge lengths, as in the paper's experiments."""
 
 SEED = 0
-METHODS = ("BILATERAL", "TRI_1", "TRI_2", "FREE_FORM")
+METHODS = ("BILATERAL", "TRI_1", "TRI_2", "AUTO")
 
 
 class Run(NamedTuple):
