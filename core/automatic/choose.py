@@ -36,6 +36,10 @@ N_PROBES = (4, 8000)
 LARGEST_RESPONSE = 3.0
 """How much further than it was moved a vertex may be seen to move: a few that jump would drown all others."""
 
+STRONG = 0.35
+"""Noise in mean edge lengths beyond which results of normals and of positions are not averaged. Risks are too
+uncertain there, and the low-pass blurs the creases that the other one found."""
+
 WIDENINGS = 3
 """Averages of normals over the faces around, so that strong noise does not tilt the directions."""
 
@@ -110,15 +114,24 @@ def choose_recipes(
             tick(share)
     divergences /= n_probes
     choices: list[tuple[int, ...]] = [(index,) for index in range(len(RECIPES))]
-    choices += list(combinations(range(len(RECIPES)), 2))
+    choices += [
+        pair
+        for pair in combinations(range(len(RECIPES)), 2)
+        if sigma <= STRONG or _is_of_normals(pair[0]) == _is_of_normals(pair[1])
+    ]
     risks, roughness = [], []
     for choice in choices:
         result = results[choice[0]] if len(choice) == 1 else 0.5 * (results[choice[0]] + results[choice[1]])
         q = np.einsum("cn,cn->n", result - points, directions)[counted].astype(np.float64)
         divergence = float(np.mean(divergences[list(choice)]))
         risks.append(float(np.mean(q * q)) - sigma**2 + 2.0 * sigma**2 * divergence)
-        roughness.append(_roughness(result, problem))
+        roughness.append(_roughness(result, problem, counted))
     return tuple(RECIPES[index] for index in choices[_best(risks, roughness, sigma)])
+
+
+def _is_of_normals(index: int) -> bool:
+    """Tell whether a recipe works on normals; the others work on positions."""
+    return bool(RECIPES[index].range_sigmas)
 
 
 def _wide_normals(
@@ -133,11 +146,13 @@ def _wide_normals(
     return unit_columns(at_vertices, np.zeros_like(at_vertices))
 
 
-def _roughness(points: NDArray[np.floating], problem: NormalProblem) -> float:
-    """Return the mean of |n_f - n_g| over adjacent faces."""
+def _roughness(points: NDArray[np.floating], problem: NormalProblem, counted: NDArray[np.bool_]) -> float:
+    """Return the mean of |n_f - n_g| over adjacent faces, those at the counted vertices only."""
     normals = normals_of(points, problem.surface)
     own = np.repeat(np.arange(normals.shape[1]), np.diff(problem.neighbors.offset))
-    apart = normals[:, own] - normals[:, problem.neighbors.neighbor]
+    # The corners of a face are its edges as well, so that `own` goes along with them.
+    inside = counted[problem.surface.corner_vertex]
+    apart = normals[:, own[inside]] - normals[:, problem.neighbors.neighbor[inside]]
     return float(np.sqrt((apart * apart).sum(axis=0)).mean()) if apart.size else 0.0
 
 

@@ -109,7 +109,11 @@ class NormalProblem:
             surface, self.at_vertex, np.ascontiguousarray(centroids.T), areas, spatial_sigma, blocks
         )
         little = noise_in_normals(noisy, TINY_STEP * sigma * sample, surface, self.at_vertex, blocks)
-        self.unit = median_difference(little, self.neighbors) / TINY_STEP
+        # What a little noise does, scaled up, is too much for strong noise: no angle exceeds a half turn.
+        self.unit = min(
+            median_difference(little, self.neighbors) / TINY_STEP,
+            median_difference(self.normals, self.neighbors),
+        )
         self.fit = VertexFit(surface, self.at_vertex, blocks)
         self.rings = RingAverages(connectivity, blocks)
         self._pilots: dict[float, NDArray[np.floating]] = {}
