@@ -33,6 +33,9 @@ N_PROBES = (4, 8000)
 """Most probes, and the number of faces that one probe suffices for: small meshes need several."""
 
 
+HANDICAP = 1.4
+"""Factor on the risk of the low-pass of positions alone, which blurs creases: it has to be clearly better."""
+
 LARGEST_RESPONSE = 3.0
 """How much further than it was moved a vertex may be seen to move: a few that jump would drown all others."""
 
@@ -124,9 +127,11 @@ def choose_recipes(
         result = results[choice[0]] if len(choice) == 1 else 0.5 * (results[choice[0]] + results[choice[1]])
         q = np.einsum("cn,cn->n", result - points, directions)[counted].astype(np.float64)
         divergence = float(np.mean(divergences[list(choice)]))
-        risks.append(float(np.mean(q * q)) - sigma**2 + 2.0 * sigma**2 * divergence)
+        risk = float(np.mean(q * q)) - sigma**2 + 2.0 * sigma**2 * divergence
+        is_blurring = not any(map(_is_of_normals, choice))
+        risks.append(max(risk, LEAST_RISK * sigma**2) * (HANDICAP if is_blurring else 1.0))
         roughness.append(_roughness(result, problem, counted))
-    return tuple(RECIPES[index] for index in choices[_best(risks, roughness, sigma)])
+    return tuple(RECIPES[index] for index in choices[_best(risks, roughness)])
 
 
 def _is_of_normals(index: int) -> bool:
@@ -156,11 +161,8 @@ def _roughness(points: NDArray[np.floating], problem: NormalProblem, counted: ND
     return float(np.sqrt((apart * apart).sum(axis=0)).mean()) if apart.size else 0.0
 
 
-def _best(risks: list[float], roughness: list[float], sigma: float) -> int:
-    """Return the recipe with the lowest risk times squared roughness."""
+def _best(risks: list[float], roughness: list[float]) -> int:
+    """Return which choice has the lowest risk times squared roughness."""
     smallest = max(min(roughness), 1e-12)
-    scores = [
-        max(risk, LEAST_RISK * sigma**2) * (rough / smallest) ** 2
-        for risk, rough in zip(risks, roughness, strict=True)
-    ]
+    scores = [risk * (rough / smallest) ** 2 for risk, rough in zip(risks, roughness, strict=True)]
     return int(np.argmin(scores))
