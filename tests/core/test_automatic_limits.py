@@ -2,11 +2,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What automatic denoising survives: hostile meshes, odd sizes, and the ends of its range."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from framelet.core import PRESETS, SurfaceMesh, blocks, denoise
 from framelet.core.automatic import filter as engine
-from framelet.core.blocks import BLOCK_SIZE
+from framelet.core.normals.averages import ITEMS_AT_ONCE
 from mesh_files import mesh_files, read_mesh
 from meshes import MESHES, bow_tie, clean_soup, faces_of, noisy, pyramid, soup, union
 
@@ -31,7 +33,7 @@ class Measured:
         noise = self.estimate(surface, *others)
         start, end = surface.vertices[surface.edges].astype(float).swapaxes(0, 1)
         sigma = 0.2 * float(np.linalg.norm(end - start, axis=1).mean())
-        return noise if noise.sigma > 0 else noise._replace(sigma=sigma)
+        return noise if noise.sigma > 0 else replace(noise, sigma=sigma)
 
 
 def assert_finite(mesh, settings=AUTO):
@@ -50,23 +52,23 @@ def test_every_mesh_made_in_code(name, rng):
 
 
 def test_polygon_soups():
-    for seed in range(4):
+    for seed in range(3):
         for shortest in (1, 3):
             assert_finite(soup(seed, shortest=shortest))
         assert_finite(clean_soup(seed))
 
 
 @pytest.mark.parametrize(
-    "build", [lambda: bow_tie(100), lambda: pyramid(150, closed=True), lambda: pyramid(700, closed=True)]
+    "build", [lambda: bow_tie(100), lambda: pyramid(150, closed=True), lambda: pyramid(300, closed=True)]
 )
 def test_many_fans_and_high_valences(build, rng):
     assert_finite(noisy(build(), rng))
 
 
 def test_many_loose_vertices(rng):
-    """More than a block of them, so that a block has no neighbors at all."""
+    """More than two blocks of averages, so that a block has no neighbors at all."""
     mesh = noisy(MESHES["tetrahedron"](), rng)
-    loose = rng.normal(size=(2 * BLOCK_SIZE, 3))
+    loose = rng.normal(size=(3 * ITEMS_AT_ONCE, 3))
     assert_finite(SurfaceMesh.from_faces(np.concatenate((mesh.vertices, loose)), faces_of(mesh)))
     shifted = [[v + len(loose) for v in face] for face in faces_of(mesh)]
     assert_finite(SurfaceMesh.from_faces(np.concatenate((loose, mesh.vertices)), shifted))
@@ -100,6 +102,7 @@ def test_the_ends_of_the_range(strength, rng):
     assert assert_finite(mesh, AUTO.with_changes(strength=strength)).displacement_max > 0
 
 
+@pytest.mark.filterwarnings("default")
 def test_huge_and_tiny_meshes(rng):
     """As long as the squares of lengths are numbers, size does not matter."""
     mesh = noisy(MESHES["quad torus"](), rng)
