@@ -68,7 +68,10 @@ class DenoiseSettings:
         methods=("AUTO",),
     )
     tuning: str = _setting(
-        "GIVEN", "Parameters", "Where λ, μ and the number of iterations come from", choices=TUNINGS,
+        "GIVEN",
+        "Parameters",
+        "Where λ, μ and the number of iterations come from",
+        choices=TUNINGS,
         methods=("POSITIONS",),
     )
     frame: str = _setting(

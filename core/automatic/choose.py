@@ -26,7 +26,7 @@ SIGNLESS = 1e-3
 """Scrambled numbers as near to 1/2 get no sign."""
 
 LEAST_RISK = 0.03
-"""In units of the variance of the noise; smaller risks count as this one, as the estimate is not that exact."""
+"""In units of the variance of the noise; smaller risks count as this one: the estimate is not that exact."""
 
 N_PROBES = (4, 8000)
 """Most probes, and the number of faces that one probe suffices for: small meshes need several."""
@@ -100,7 +100,7 @@ def choose_recipes(
             divergences[index] += float(np.mean(signs[counted] * change[counted], dtype=np.float64)) / PROBE
             tick(share)
     divergences /= n_probes
-    choices = [(index,) for index in range(len(RECIPES))]
+    choices: list[tuple[int, ...]] = [(index,) for index in range(len(RECIPES))]
     choices += list(combinations(range(len(RECIPES)), 2))
     risks, roughness = [], []
     for choice in choices:

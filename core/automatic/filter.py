@@ -91,9 +91,7 @@ def automatic_filter(
             raise _Stopped
 
     try:
-        recipes = choose_recipes(
-            noisy, surface, sigma, blocks, lambda share: advance(CHOOSING_SHARE * share)
-        )
+        recipes = choose_recipes(noisy, surface, sigma, blocks, lambda share: advance(CHOOSING_SHARE * share))
         step = (1.0 - CHOOSING_SHARE) / sum(map(n_ticks, recipes))
         problem = NormalProblem(noisy, surface, connectivity, sigma, blocks)
         points = problem.run_all(recipes, constraints, lambda change: advance(step, change))

@@ -24,9 +24,9 @@ _SEED_CANDIDATES = 20000
 
 
 class Trial(NamedTuple):
-    """A part of a mesh: its vertices' numbers (n,), the faces that it has as a mesh, and which vertices count."""
+    """A part of a mesh: its vertices' numbers (n,), its faces as a mesh, and which vertices count."""
 
-    vertices: NDArray[np.intp]
+    vertices: NDArray[np.integer]
     surface: SurfaceMesh
     counts: NDArray[np.bool_]
 
@@ -62,7 +62,8 @@ def trial_part(points: NDArray[np.floating], surface: SurfaceMesh) -> Trial:
     vertices, local = np.unique(corners, return_inverse=True)
     sizes = surface.face_sizes()[faces]
     ends = np.cumsum(sizes)[:-1]
-    part = SurfaceMesh.from_faces(surface.vertices[vertices], np.split(local.reshape(-1), ends))
+    pieces = [face.tolist() for face in np.split(local.reshape(-1), ends)]
+    part = SurfaceMesh.from_faces(surface.vertices[vertices], pieces)
     return Trial(vertices, part, is_inner[vertices])
 
 

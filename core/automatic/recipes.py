@@ -30,8 +30,8 @@ class Recipe(NamedTuple):
     """Parameters of a run on normals.
 
     `threshold` is the pilot's, in units of the median difference that the noise makes between neighboring
-    normals. There is a pass of shrinkage for each of `range_sigmas`; without any, positions are filtered instead
-    of normals, by a low-pass of `n_averages`. `caution` is explained in `normals.band_shrinkage`.
+    normals. There is a pass of shrinkage for each of `range_sigmas`; without any, positions are filtered
+    instead of normals, by a low-pass of `n_averages`. `caution` is explained in `normals.band_shrinkage`.
     """
 
     label: str

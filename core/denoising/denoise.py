@@ -11,8 +11,8 @@ from numpy.typing import DTypeLike, NDArray
 
 from ..automatic.filter import automatic_filter
 from ..memory import check_memory
-from ..normals.filter import normal_filter
 from ..noise import NoiseEstimate
+from ..normals.filter import normal_filter
 from ..settings import DEFAULT_PRESET, PRESETS, DenoiseSettings
 from ..surface.connectivity import Connectivity
 from ..surface.face_changes import compare_faces
@@ -94,9 +94,11 @@ def denoise(
         constraints = find_constraints(ordered, connectivity, settings, movable, dtype, prepared.corners)
         noise, recipe = None, ""
         if settings.method == "AUTO":
-            *solved, noise, recipe = automatic_filter(
+            automatic = automatic_filter(
                 noisy, ordered, connectivity, prepared.edge, settings, constraints, blocks, callback
             )
+            solved = automatic.points, automatic.iterations, automatic.is_stopped
+            noise, recipe = automatic.noise, automatic.recipe
         elif settings.method == "BILATERAL":
             solved = bilateral_filter(noisy, ordered, connectivity, settings, constraints, blocks, callback)
         elif settings.method == "NORMALS":

@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Averages over faces that share a vertex, with weights that a guide cuts off at creases.
-"""
+"""Averages over faces that share a vertex, with weights that a guide cuts off at creases."""
 
 from __future__ import annotations
 
@@ -12,6 +11,7 @@ from ..blocks import Blocks
 from ..surface.surface_mesh import SurfaceMesh
 from .averages import Averages, Group, Weights
 from .neighbors import Ragged, faces_around
+
 
 class FaceAverages(Averages):
     """The faces around each face, itself included, and what does not change of their weights.

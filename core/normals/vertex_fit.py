@@ -44,9 +44,7 @@ class VertexFit:
         self._faces = Averages(around, surface.n_vertices, blocks)
         self._weights = self._faces.for_groups(equal)
 
-    def steps(
-        self, start: NDArray[np.floating], normals: NDArray[np.floating]
-    ) -> VertexSteps:
+    def steps(self, start: NDArray[np.floating], normals: NDArray[np.floating]) -> VertexSteps:
         """Begin to fit: `start` are positions (3, N), `normals` wanted unit normals (3, F)."""
         return VertexSteps(self, start, normals)
 
