@@ -17,6 +17,11 @@ BASE_PER_CORNER = 45
 NORMALS_PER_CORNER = 130
 """Bytes for the engine on face normals; all methods' figures are measured by `tests/benchmarks/speed`."""
 
+AVERAGES_PER_CORNER = 13 * (4 + 4 + 4) // 3
+RECIPES_ONCE = 24 * 2**20
+"""Bytes for automatic denoising besides: around a triangle 13 faces, each a number and two weights; and once,
+for measuring the noise and for trying all recipes on parts of a limited size."""
+
 ADAPTIVE_PER_TAP = 18
 ADAPTIVE_ONCE = 100
 LATTICE_ONCE = 60
@@ -49,6 +54,8 @@ def estimated_bytes(n_vertices: int, n_corners: int, settings: DenoiseSettings) 
     total = _FIXED + BASE_PER_VERTEX * n_vertices + BASE_PER_CORNER * n_corners
     if settings.method == "NORMALS":
         return total + NORMALS_PER_CORNER * n_corners
+    if settings.method == "AUTO":
+        return total + RECIPES_ONCE + (NORMALS_PER_CORNER + AVERAGES_PER_CORNER) * n_corners
     if settings.method == "BILATERAL":
         reach = max(1, ceil(2.0 * settings.sigma_c))
         # Two numbers for each pair of neighbors, kept once, and held three more times while they are found.

@@ -21,6 +21,7 @@ CASES = [
     ("triangles", {"frame": "PAIRWISE"}),
     ("triangles", {"frame": "B_SPLINE_3"}),
     ("triangles", {"method": "NORMALS"}),
+    ("quads", {"method": "AUTO"}),
     ("triangles", {"method": "BILATERAL"}),
     ("quads", {"frame": "LINEAR_SPLINE"}),
     ("quads", {"frame": "B_SPLINE_4"}),

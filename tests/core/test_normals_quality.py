@@ -16,6 +16,7 @@ from meshes import MESHES, noisy, soup, triangle_torus, union
 
 INFO = {item.name: item.metadata["info"] for item in fields(DenoiseSettings)}
 CHANGES = {
+    "strength": 0.0,
     "frame": "ADAPTIVE",
     "stencil": "MEAN",
     "shrinkage": "BANDS",
@@ -35,7 +36,8 @@ CHANGES = {
     "passes": 1,
     "vertex_steps": 5,
 }
-"""Another value for each setting but the method, and but the threads, which never change a result."""
+"""Another value for each setting but the method, but where parameters come from, and but the threads, which
+never change a result."""
 
 CUBE_SIDE = 8
 
@@ -131,7 +133,7 @@ def test_figures_of_files(shared_meshes, preset, file, noise, before, after):
 @pytest.mark.parametrize("method", [choice.identifier for choice in METHODS])
 def test_settings_that_have_no_effect_change_nothing_and_others_do(method, rng):
     """What the user interface hides must not matter, and what it shows must."""
-    assert {*CHANGES, "method", "threads"} == set(INFO)
+    assert {*CHANGES, "method", "tuning", "threads"} == set(INFO)
     mesh = noisy(MESHES["irregular grid"](), rng)
     settings = DenoiseSettings(method=method, iterations=3)
     plain = denoise(mesh, settings).vertices

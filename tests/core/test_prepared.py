@@ -168,8 +168,9 @@ def test_bytes_of_counts_each_array_once(rng):
     mesh = noisy(triangle_torus(), rng)
     whole = sum(getattr(mesh, item.name).nbytes for item in fields(SurfaceMesh))
     assert bytes_of(mesh) == bytes_of((mesh, mesh.vertices[3:], [mesh])) == whole
-    prepared = prepare(mesh)
-    denoise(mesh, prepared=prepared)
+    settings = settings_of("TRI_2")
+    prepared = prepare(mesh, settings)
+    denoise(mesh, settings, prepared=prepared)
     assert bytes_of(prepared) > whole + prepared.transform.levels[0].stencil.slots.nbytes
 
 

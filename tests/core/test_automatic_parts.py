@@ -1,0 +1,207 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The parts of automatic denoising against their definitions, written as loops and dense matrices."""
+
+import numpy as np
+import pytest
+from checks import assert_same_bits, lengths
+from framelet.core import SurfaceMesh
+from framelet.core.automatic.recipes import unit_noise
+from framelet.core.blocks import Blocks
+from framelet.core.normals.averages import Averages
+from framelet.core.normals.band_shrinkage import average_steps, shrink_bands, unit_rows
+from framelet.core.normals.face_averages import FaceAverages
+from framelet.core.normals.neighbors import Ragged, faces_around, faces_of_vertices
+from framelet.core.normals.noise_sample import area_vectors, noise_in_normals, scrambled, vertex_means
+from framelet.core.normals.vertex_fit import VertexFit
+from framelet.core.normals.vertex_update import update_vertices
+from framelet.core.surface.geometry import face_area_vectors
+from meshes import MESHES, faces_of, noisy, soup, triangle_torus
+from twins import faces_touching, newell
+
+ROUNDING = 1e-12
+ALONE = Blocks(1)
+KINDS = {
+    **{
+        name: MESHES[name]
+        for name in ("irregular torus", "quad torus", "mixed sheet", "prism", "three pages")
+    },
+    "border": MESHES["irregular grid"],
+    "soup": lambda: soup(0, shortest=1),
+    "empty faces": lambda: SurfaceMesh.from_faces(np.eye(5, 3), [(), (0, 1, 2), (), (2, 4, 0), (3,), ()]),
+}
+KIND = pytest.mark.parametrize("kind", KINDS)
+BLOCKS = pytest.mark.parametrize("blocks", [ALONE, Blocks(1, 7)], ids=["one block", "blocks"])
+
+
+def face_averages(mesh, rng, blocks=ALONE, sigma=0.8):
+    """Return averages over faces with random centroids and areas, and these."""
+    centroids, areas = rng.normal(size=(mesh.n_faces, 3)), rng.exponential(size=mesh.n_faces)
+    averages = FaceAverages(mesh, faces_of_vertices(mesh), centroids, areas, sigma, blocks)
+    return averages, centroids, areas
+
+
+def matrix_of(averages, weights, n):
+    """Return averages as a dense matrix, by averaging unit vectors."""
+    return averages.average(weights, np.eye(n))
+
+
+@KIND
+@BLOCKS
+def test_averages(kind, blocks, rng, monkeypatch):
+    mesh = KINDS[kind]()
+    at_vertex = faces_of_vertices(mesh)
+    monkeypatch.setattr("framelet.core.normals.averages.ITEMS_AT_ONCE", 10)
+    averages = Averages(lambda a, b: faces_around(mesh, at_vertex, a, b), mesh.n_faces, blocks)
+    factor = rng.random(mesh.n_faces)
+    weights = averages.for_groups(lambda group: factor[group.members] + group.rows[:, None])
+    twice = averages.for_groups(lambda group, given: 2 * given, weights)
+    field = rng.normal(size=(mesh.n_faces, 4))
+    expected = np.zeros_like(field)
+    for f, near in enumerate(faces_touching(mesh)):
+        for g in near:
+            expected[f] += (factor[g] + f) * field[g]
+    assert np.abs(averages.average(weights, field) - expected).max() < 1e-9
+    assert np.abs(averages.average(twice, field) - 2 * expected).max() < 1e-9
+
+
+def test_averages_of_nothing():
+    averages = Averages(lambda a, b: Ragged(np.zeros(b - a + 1, int), np.zeros(0, int)), 5, ALONE)
+    assert (
+        averages.average(averages.for_groups(lambda group: 1 / 0), np.ones((5, 2))).tolist() == [[0, 0]] * 5
+    )
+
+
+@KIND
+@BLOCKS
+def test_weights_of_faces(kind, blocks, rng):
+    mesh = KINDS[kind]()
+    averages, centroids, areas = face_averages(mesh, rng, blocks)
+    guide = rng.normal(size=(mesh.n_faces, 3))
+    found = matrix_of(averages, averages.weights(guide, 0.7), mesh.n_faces)
+    expected = np.zeros_like(found)
+    for f, near in enumerate(faces_touching(mesh)):
+        far, turn = lengths(centroids[near] - centroids[f]), lengths(guide[near] - guide[f])
+        row = areas[near] * np.exp(-(far**2) / 2 / 0.8**2 - turn**2 / 2 / 0.7**2)
+        expected[f, near] = row / row.sum() if near else 0
+    assert np.abs(found - expected).max() < ROUNDING
+
+
+def test_around_faces_without_area_the_face_itself_stands_in(rng):
+    mesh = triangle_torus(5, 6)
+    zeros = np.zeros(mesh.n_faces)
+    averages = FaceAverages(mesh, faces_of_vertices(mesh), np.zeros((mesh.n_faces, 3)), zeros, 0.0, ALONE)
+    weights = averages.weights(rng.normal(size=(mesh.n_faces, 3)), 0.3)
+    assert np.array_equal(matrix_of(averages, weights, mesh.n_faces), np.eye(mesh.n_faces))
+
+
+@pytest.mark.parametrize("n_bands", [0, 1, 2, 4])
+@pytest.mark.parametrize("caution", [0.0, 1.5])
+def test_bands_against_powers_of_a_matrix(n_bands, caution, rng):
+    mesh = KINDS["mixed sheet"]()
+    averages, *_ = face_averages(mesh, rng)
+    pilot, noise, field = (rng.normal(size=(mesh.n_faces, 3)) for _ in range(3))
+    weights = averages.weights(pilot, 2.0)
+    a = matrix_of(averages, weights, mesh.n_faces)
+    ticks, expected, power = [], np.zeros_like(field), np.eye(len(a))
+    for band in range(n_bands):
+        lower = np.linalg.matrix_power(a, 2**band)  # 1, 2, 4, 8 averages in all
+        high = power - lower
+        smooth = np.linalg.matrix_power(a, min(4, max(2, 2**band)))
+        signal, spoiled = (smooth @ (lengths(high @ x) ** 2) for x in (pilot, noise))
+        gain = signal**2 / (signal**2 + (caution * spoiled) ** 2)
+        expected += gain[:, None] * (high @ field)
+        power = lower
+    expected += power @ field
+    given = [x.copy() for x in (field, noise, pilot)]
+    found = shrink_bands(*given, averages, weights, n_bands, caution, lambda: ticks.append(0))
+    assert np.abs(found - expected).max() < 1e-10
+    assert len(ticks) == n_bands
+    assert n_bands == 0 or average_steps(n_bands) == 2 ** (n_bands - 1)
+    if not caution:
+        assert np.abs(found - field).max() < ROUNDING
+    for x, y in zip(given, (field, noise, pilot), strict=True):
+        assert_same_bits(x, y)
+
+
+def test_bands_without_noise_or_without_signal(rng):
+    """All gains are 1 without noise; they are 0 where the pilot is even, and only the low-pass is left."""
+    mesh = triangle_torus(6, 8)
+    averages, *_ = face_averages(mesh, rng)
+    noise, field = (rng.normal(size=(mesh.n_faces, 3)) for _ in range(2))
+    weights = averages.weights(noise, 2.0)
+    for pilot in (noise, np.zeros_like(noise)):
+        found = shrink_bands(field, np.zeros_like(noise), pilot, averages, weights, 4, 2.0)
+        assert np.abs(found - field).max() < ROUNDING
+    found = shrink_bands(field, noise, np.zeros_like(noise), averages, weights, 3, 1.0)
+    low = np.linalg.matrix_power(matrix_of(averages, weights, mesh.n_faces), 4) @ field
+    assert np.abs(found - low).max() < ROUNDING
+
+
+def test_unit_rows():
+    rows = unit_rows(np.array([[3.0, 0, 4], [0, 0, 0], [0, 1e-200, 0]]), np.array([[1.0, 0, 0]] * 3))
+    assert rows.tolist() == [[0.6, 0, 0.8], [1, 0, 0], [1, 0, 0]]
+
+
+@pytest.mark.parametrize("kind", [*KINDS, "single quad", "tetrahedron"])
+def test_area_vectors(kind, rng):
+    mesh = noisy((KINDS | MESHES)[kind](), rng)
+    for shift, slack in ((0.0, ROUNDING), (1e6, 1e-8)):
+        points = mesh.vertices + shift
+        found = area_vectors(points.T, mesh).T
+        assert np.abs(found - [newell(points[f]) if f else (0, 0, 0) for f in faces_of(mesh)]).max() < slack
+        assert np.abs(found - face_area_vectors(mesh.with_vertices(points))).max() < slack
+
+
+@KIND
+def test_vertex_means(kind, rng):
+    mesh = KINDS[kind]()
+    values = rng.normal(size=(mesh.n_faces, 3))
+    own = [
+        [x for x, f in zip(values, faces_of(mesh), strict=True) for w in f if w == v]
+        for v in range(mesh.n_vertices)
+    ]
+    found = vertex_means(values.T, faces_of_vertices(mesh)).T
+    assert np.abs(found - [np.mean(x, axis=0) if x else np.zeros(3) for x in own]).max() < ROUNDING
+    assert not vertex_means(np.zeros((3, 0)), Ragged(np.zeros(4, int), np.zeros(0, int))).any()
+
+
+def test_scrambled_numbers_are_spread_evenly_and_follow_no_rounding(rng):
+    mesh = noisy(triangle_torus(30, 40), rng, 0.2)
+    at_vertex, edge = faces_of_vertices(mesh), 0.3
+    number = scrambled(mesh.vertices.T, mesh, at_vertex, 0.2 * edge, 64.0)
+    assert number.min() >= 0 and number.max() <= 1
+    assert np.abs(np.histogram(number, 10, (0, 1))[0] / len(number) - 0.1).max() < 0.03
+    assert abs(unit_noise(number).mean()) < 0.1 and abs(unit_noise(number).std() - 1) < 0.05
+    first, second = number[mesh.edges].T
+    assert abs(np.corrcoef(first, second)[0, 1]) < 0.06
+    over = SurfaceMesh.from_faces(mesh.vertices, [face[::-1] for face in faces_of(mesh)])
+    assert np.abs(scrambled(mesh.vertices.T, over, at_vertex, 0.2 * edge, 64.0) - (1 - number)).max() < 1e-9
+    # At a vertex of one triangle, or on a plane, the height is 0 but for rounding.
+    flat = noisy(MESHES["single triangle"](), rng)
+    for shift in (0, 3.3, -7.1):
+        sample = scrambled(flat.vertices.T + shift, flat, faces_of_vertices(flat), 0.1, 64.0)
+        assert np.abs(sample - 0.5).max() < 1e-9
+
+
+def test_noise_in_normals_is_linear_for_small_noise(rng):
+    mesh = noisy(MESHES["mixed sheet"](), rng)
+    at_vertex = faces_of_vertices(mesh)
+    amount = 1e-6 * rng.normal(size=mesh.n_vertices)
+    one, two = (noise_in_normals(mesh.vertices.T, k * amount, mesh, at_vertex, ALONE) for k in (1, 2))
+    assert np.abs(two - 2 * one).max() < 1e-9 < np.abs(one).max()
+    assert not noise_in_normals(mesh.vertices.T, 0 * amount, mesh, at_vertex, ALONE).any()
+
+
+@KIND
+@BLOCKS
+def test_steps_of_fitting_are_vertex_updates(kind, blocks, rng):
+    mesh = noisy(KINDS[kind](), rng)
+    at_vertex, points = faces_of_vertices(mesh), mesh.vertices.T
+    normals = unit_rows(rng.normal(size=(mesh.n_faces, 3)), np.zeros((mesh.n_faces, 3))).T
+    steps, displacement = VertexFit(mesh, at_vertex, blocks).steps(points, normals), np.zeros_like(points)
+    expected = points
+    for _ in range(5):
+        displacement = steps.advance(displacement)
+        expected = update_vertices(expected, normals, mesh, at_vertex, ALONE)
+    assert np.abs(points + displacement - expected).max() < 1e-10
