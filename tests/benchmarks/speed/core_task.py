@@ -26,6 +26,7 @@ STAGES = (
     (prepared_module, "make_transform", "stencils"),
     (denoise_module, "split_bregman", "solve"),
     (denoise_module, "normal_filter", "solve"),
+    (denoise_module, "automatic_filter", "solve"),
     (denoise_module, "bilateral_filter", "solve"),
     (denoise_module, "displaced", "report"),
     (denoise_module, "_report", "report"),
