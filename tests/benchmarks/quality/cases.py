@@ -24,7 +24,7 @@ DEVELOPMENT = (
     "quad/spot2930",
     "quad/fandisk766",
 )
-"""Models on which Framelet's presets are tuned, with seeds from 100 on."""
+"""Models on which tuning began, with seeds from 100 on; the page says which others were looked at."""
 
 SEEDS = (0, 1, 2)
 TUNING_SEED = 0

@@ -80,4 +80,4 @@ GROUPS: dict[str, Callable[[CaseName], bool]] = {
     "others": lambda case: case.model not in DEVELOPMENT,
     "all": lambda case: True,
 }
-"""The models on which presets were tuned, with other seeds; those that were kept aside; both."""
+"""The models on which tuning began; the others, some of which were looked at later; both."""
