@@ -214,8 +214,7 @@ class NormalProblem:
 
     def _ring_mean(self, points: NDArray[np.floating]) -> NDArray[np.floating]:
         """Return the means over the neighbors of each vertex, shape (3, N)."""
-        weights = self.rings.weights(0.0, points.dtype)
-        return self.rings.average(weights, np.ascontiguousarray(points.T)).T
+        return self.rings.mean_of(points)
 
 
 def unit_noise(number: NDArray[np.floating]) -> NDArray[np.floating]:

@@ -66,8 +66,8 @@ def shrink_bands(
     noise. Squares make it steeper than Wiener's E / (E + N): bands of pure noise, where E is what the pilot
     left of it, come closer to 0.
     """
-    low = np.concatenate((noisy, noise, pilot), axis=1)
-    result = np.zeros_like(noisy)
+    low = averages.inward(np.concatenate((noisy, noise, pilot), axis=1))
+    result = np.zeros((len(low), 3), noisy.dtype)
     tiny = np.finfo(noisy.dtype).tiny
     for band in range(n_bands):
         before = low
@@ -91,7 +91,7 @@ def shrink_bands(
         result += gain[:, None] * high[:, :3]
         tick()
     result += low[:, :3]
-    return result
+    return averages.outward(result)
 
 
 def unit_rows(vectors: NDArray[np.floating], fallback: NDArray[np.floating]) -> NDArray[np.floating]:

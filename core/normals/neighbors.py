@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ..surface.connectivity import Connectivity
 from ..surface.surface_mesh import SurfaceMesh
 from ..transform.adaptive_level import Neighbors
+from .averages import Pairs
 
 
 class Ragged(NamedTuple):
@@ -54,3 +55,26 @@ def faces_around(surface: SurfaceMesh, at_vertex: Ragged, start: int, stop: int)
     row, face = np.divmod(keys[is_first], max(surface.n_faces, 1))
     found = np.bincount(row, minlength=stop - start)
     return Ragged(np.concatenate(([0], np.cumsum(found))), face.astype(np.int32))
+
+
+MOST_FACES = 64
+"""Faces at a vertex beyond which they do not count as neighbors by way of that vertex: the number of pairs
+would grow with the square. In a fan they are neighbors by way of its rim, edge by edge."""
+
+
+def pairs_of_faces(surface: SurfaceMesh, at_vertex: Ragged, faces: NDArray[np.integer]) -> Pairs:
+    """Return the faces that share a vertex with each of some faces, itself included if it has a corner."""
+    sizes = surface.face_sizes()[faces]
+    owner = np.repeat(np.arange(len(faces)), sizes)
+    corner = np.arange(sizes.sum()) + np.repeat(
+        surface.face_offset[faces] - (np.cumsum(sizes) - sizes), sizes
+    )
+    vertex = surface.corner_vertex[corner]
+    counts = at_vertex.offset[vertex + 1] - at_vertex.offset[vertex]
+    counts[counts > MOST_FACES] = 0
+    place = np.arange(counts.sum()) + np.repeat(
+        at_vertex.offset[vertex] - (np.cumsum(counts) - counts), counts
+    )
+    filled = np.flatnonzero(sizes)
+    row = np.concatenate((np.repeat(owner, counts), filled))
+    return Pairs(row, np.concatenate((at_vertex.items[place], faces[filled])))

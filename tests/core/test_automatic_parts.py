@@ -8,10 +8,11 @@ from checks import assert_same_bits, lengths
 from framelet.core import SurfaceMesh
 from framelet.core.automatic.recipes import unit_noise
 from framelet.core.blocks import Blocks
-from framelet.core.normals.averages import Averages
+from framelet.core.normals.averages import Averages, Pairs
 from framelet.core.normals.band_shrinkage import average_steps, shrink_bands, unit_rows
 from framelet.core.normals.face_averages import FaceAverages
-from framelet.core.normals.neighbors import Ragged, faces_around, faces_of_vertices
+from framelet.core.normals.means import Means
+from framelet.core.normals.neighbors import Ragged, faces_of_vertices, pairs_of_faces
 from framelet.core.normals.noise_sample import area_vectors, noise_in_normals, scrambled, vertex_means
 from framelet.core.normals.vertex_fit import VertexFit
 from framelet.core.normals.vertex_update import update_vertices
@@ -43,33 +44,59 @@ def face_averages(mesh, rng, blocks=ALONE, sigma=0.8):
 
 def matrix_of(averages, weights, n):
     """Return averages as a dense matrix, by averaging unit vectors."""
-    return averages.average(weights, np.eye(n))
+    return averages.outward(averages.average(weights, averages.inward(np.eye(n))))
 
 
 @KIND
 @BLOCKS
-def test_averages(kind, blocks, rng, monkeypatch):
+@pytest.mark.parametrize("at_once", [1, 50, 2**14])
+def test_averages(kind, blocks, at_once, rng, monkeypatch):
+    """Whatever lies in a tile, and however tiles are split into chunks."""
     mesh = KINDS[kind]()
-    at_vertex = faces_of_vertices(mesh)
-    monkeypatch.setattr("framelet.core.normals.averages.ITEMS_AT_ONCE", 10)
-    averages = Averages(lambda a, b: faces_around(mesh, at_vertex, a, b), mesh.n_faces, blocks)
+    at_vertex, order = faces_of_vertices(mesh), rng.permutation(mesh.n_faces)
+    monkeypatch.setattr("framelet.core.normals.averages.MEMBERS_AT_ONCE", at_once)
+    monkeypatch.setattr("framelet.core.normals.averages.TILES_IN_BLOCK", 3)
+    averages = Averages(lambda faces: pairs_of_faces(mesh, at_vertex, faces), order, blocks)
     factor = rng.random(mesh.n_faces)
-    weights = averages.for_groups(lambda group: factor[group.members] + group.rows[:, None])
-    twice = averages.for_groups(lambda group, given: 2 * given, weights)
+    inside, number = averages.inward(factor), averages.inward(np.arange(mesh.n_faces))
+    weights = averages.for_chunks(
+        lambda chunk: chunk.mask * (inside[chunk.members][:, None] + number[chunk.rows][:, :, None])
+    )
     field = rng.normal(size=(mesh.n_faces, 4))
     expected = np.zeros_like(field)
     for f, near in enumerate(faces_touching(mesh)):
         for g in near:
             expected[f] += (factor[g] + f) * field[g]
-    assert np.abs(averages.average(weights, field) - expected).max() < 1e-9
-    assert np.abs(averages.average(twice, field) - 2 * expected).max() < 1e-9
+    assert_same_bits(averages.outward(averages.inward(field)), field)
+    found = averages.outward(averages.average(weights, averages.inward(field)))
+    assert np.abs(found - expected).max() < 1e-9
 
 
-def test_averages_of_nothing():
-    averages = Averages(lambda a, b: Ragged(np.zeros(b - a + 1, int), np.zeros(0, int)), 5, ALONE)
-    assert (
-        averages.average(averages.for_groups(lambda group: 1 / 0), np.ones((5, 2))).tolist() == [[0, 0]] * 5
-    )
+@pytest.mark.parametrize("n_items", [0, 1, 5, 8, 19])
+def test_averages_of_nothing(n_items):
+    nothing = np.zeros(0, int)
+    averages = Averages(lambda items: Pairs(nothing, nothing), np.arange(n_items), ALONE)
+    weights = averages.for_chunks(lambda chunk: np.ones(chunk.mask.shape))
+    found = averages.outward(averages.average(weights, averages.inward(np.ones((n_items, 2)))))
+    assert found.shape == (n_items, 2) and not found.any()
+
+
+@KIND
+@BLOCKS
+@pytest.mark.parametrize("at_once", [1, 50, 2**15])
+@pytest.mark.parametrize("is_square", [True, False])
+def test_means(kind, blocks, at_once, is_square, rng, monkeypatch):
+    monkeypatch.setattr("framelet.core.normals.means.MEMBERS_AT_ONCE", at_once)
+    monkeypatch.setattr("framelet.core.normals.means.ITEMS_IN_BLOCK", 10)
+    mesh = KINDS[kind]()
+    rows = [rng.integers(0, mesh.n_vertices, rng.integers(0, 9)) for _ in range(mesh.n_vertices)]
+    offset = np.concatenate(([0], np.cumsum([len(row) for row in rows])))
+    means = Means(Ragged(offset, np.concatenate(rows).astype(np.int32)), blocks, is_square=is_square)
+    field = rng.normal(size=(mesh.n_vertices, 4))
+    found = means.outward(means.mean(means.inward(field) if is_square else field))
+    expected = [field[row].mean(axis=0) if len(row) else np.zeros(4) for row in rows]
+    assert np.abs(found - expected).max() < ROUNDING
+    assert_same_bits(means.outward(means.inward(field)), field)
 
 
 @KIND
