@@ -12,11 +12,11 @@ Inside, items are numbered tile by tile. Fields have shape (n, C).
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import DTypeLike, NDArray
 
 from ..blocks import Blocks
 
@@ -32,14 +32,25 @@ MEMBERS_AT_ONCE = 2**14
 CHUNKS_AT_ONCE = 4
 """Chunks in a piece of work for a thread."""
 
+ITEMS_AT_ONCE = 2**14
+"""Items in a piece of work for a thread."""
+
 _PADDING = 4  # numbers of members are rounded up to multiples, so that there are few kinds of tiles
 
 
-class Pairs(NamedTuple):
-    """That `member[i]` is in the neighborhood of the item in place `row[i]`; it may be said repeatedly."""
+class Members(NamedTuple):
+    """That `member[i]` is a neighbor of items of tile `tile[i]`; it may be said repeatedly.
 
-    row: NDArray[np.integer]
+    Bit k of `bits[i]` stands for item k of the tile.
+    """
+
+    tile: NDArray[np.integer]
     member: NDArray[np.integer]
+    bits: NDArray[np.uint8]
+
+
+BITS = np.left_shift(1, np.arange(TILE)).astype(np.uint8)
+"""The bit of each item of a tile."""
 
 
 class Chunk(NamedTuple):
@@ -67,8 +78,7 @@ class Chunk(NamedTuple):
     @property
     def mask(self) -> NDArray[np.bool_]:
         """Which members are in the neighborhood of which item, shape (n, TILE, U)."""
-        one = np.left_shift(1, np.arange(TILE)).astype(np.uint8)[:, None]
-        return (self.bits[:, None] & one) != 0
+        return (self.bits[:, None] & BITS[:, None]) != 0
 
 
 Weights = list[NDArray[np.floating]]
@@ -81,7 +91,7 @@ class Averages:
     Parameters
     ----------
     around : callable
-        `around(items)` returns the neighborhoods of an array of items as `Pairs`.
+        `around(items)` returns the neighborhoods of the items of tiles, shape (n, TILE), as `Members`.
     order : ndarray, shape (n,), int
         The items, each once, so that those that follow each other lie close together.
     blocks : Blocks
@@ -89,9 +99,9 @@ class Averages:
     """
 
     def __init__(
-        self, around: Callable[[NDArray[np.int32]], Pairs], order: NDArray[np.integer], blocks: Blocks
+        self, around: Callable[[NDArray[np.int32]], Members], order: NDArray[np.integer], blocks: Blocks
     ) -> None:
-        self._blocks = blocks.sized(CHUNKS_AT_ONCE)
+        self._blocks, self._item_blocks = blocks.sized(CHUNKS_AT_ONCE), blocks.sized(ITEMS_AT_ONCE)
         n_items = len(order)
         n_tiles = -(-n_items // TILE)
         # The last tile is filled up with the last item once more.
@@ -99,7 +109,7 @@ class Averages:
         items.ravel()[:n_items] = order
 
         def make(start: int, stop: int) -> list[Chunk]:
-            found = _tiles(around(items[start:stop].ravel()), stop - start, n_items)
+            found = united(around(items[start:stop]), stop - start, n_items)
             sizes = -(-np.diff(found.offset) // _PADDING) * _PADDING
             by_size = np.argsort(sizes, kind="stable")
             items[start:stop] = items[start:stop][by_size]
@@ -117,17 +127,50 @@ class Averages:
         """Return a field, shape (n, ...), as it is numbered inside; an item or two are there repeatedly."""
         return field.take(self._items, axis=0)
 
+    def inward_rows(self, columns: Sequence[NDArray]) -> NDArray:
+        """Return a field, shape (n, C), given as C columns (n,), as it is numbered inside."""
+        result = np.empty((len(self._items), len(columns)), columns[0].dtype)
+
+        def kernel(start: int, stop: int) -> None:
+            for index, column in enumerate(columns):
+                result[start:stop, index] = column.take(self._items[start:stop])
+
+        self.for_items(kernel)
+        return result
+
+    def inward_columns(self, field: NDArray) -> NDArray:
+        """Return a field of vectors in columns, shape (C, n), as it is numbered inside."""
+        return field.take(self._items, axis=1)
+
     def outward(self, field: NDArray) -> NDArray:
         """Return a field that is numbered as inside, shape (n, ...), as the caller numbers it."""
         return field.take(self._place, axis=0)
 
-    def for_chunks(self, function: Callable[[Chunk], NDArray[np.floating]]) -> Weights:
-        """Return what a function makes of each chunk."""
+    def for_chunks(
+        self, fill: Callable[[Chunk, NDArray[np.floating]], None], dtype: DTypeLike = np.float64
+    ) -> Weights:
+        """Return weights: `fill(chunk, weights)` sets those of a chunk, on threads."""
+        sizes = [TILE * chunk.members.size for chunk in self._chunks]
+        # One array for all, as memory of many small ones would not go back to the system.
+        everything = np.empty(sum(sizes), dtype)
+        ends = np.cumsum(sizes, dtype=np.int64)
+        weights = [
+            everything[end - size : end].reshape(len(chunk.members), TILE, -1)
+            if size
+            else np.zeros((len(chunk.members), TILE, 0), dtype)
+            for chunk, size, end in zip(self._chunks, sizes, ends.tolist(), strict=True)
+        ]
 
-        def kernel(start: int, stop: int) -> list[NDArray[np.floating]]:
-            return [function(chunk) for chunk in self._chunks[start:stop]]
+        def kernel(start: int, stop: int) -> None:
+            for chunk, part in zip(self._chunks[start:stop], weights[start:stop], strict=True):
+                fill(chunk, part)
 
-        return [part for piece in self._blocks.run(kernel, len(self._chunks)) for part in piece]
+        self._blocks.run(kernel, len(self._chunks))
+        return weights
+
+    def for_items(self, kernel: Callable[[int, int], None]) -> None:
+        """Call `kernel(start, stop)` for ranges of the items, numbered as inside, on threads."""
+        self._item_blocks.run(kernel, len(self._items))
 
     def average(self, weights: Weights, field: NDArray[np.floating]) -> NDArray[np.floating]:
         """Return the averages of a field; both are numbered as inside, shape (n, C)."""
@@ -144,7 +187,7 @@ class Averages:
         return result
 
 
-class _Tiles(NamedTuple):
+class Tiles(NamedTuple):
     """Members of tiles, those of tile i from `offset[i]` to `offset[i + 1]`, ascending, and their bits."""
 
     offset: NDArray[np.intp]
@@ -152,29 +195,27 @@ class _Tiles(NamedTuple):
     bits: NDArray[np.uint8]
 
 
-def _tiles(pairs: Pairs, n_tiles: int, n_items: int) -> _Tiles:
-    """Unite the neighborhoods of the items of each tile."""
-    tile, item = np.divmod(pairs.row.astype(np.int64), TILE)
-    tile *= n_items
-    tile += pairs.member
-    tile <<= TILE
-    tile |= np.left_shift(1, item)
-    tile.sort()
-    bits = tile.astype(np.uint8)
-    tile >>= TILE
-    is_first = np.ones(len(tile), bool)
-    np.not_equal(tile[1:], tile[:-1], out=is_first[1:])
+def united(members: Members, n_tiles: int, n_items: int) -> Tiles:
+    """Return each member of a tile once, with all its bits."""
+    keys = members.tile.astype(np.int64)
+    keys *= n_items
+    keys += members.member
+    keys <<= TILE
+    keys |= members.bits
+    keys.sort()
+    bits = keys.astype(np.uint8)
+    keys >>= TILE
+    is_first = np.ones(len(keys), bool)
+    np.not_equal(keys[1:], keys[:-1], out=is_first[1:])
     first = np.flatnonzero(is_first)
     if len(first):
         bits = np.bitwise_or.reduceat(bits, first)
-    tile, member = np.divmod(tile[first], max(n_items, 1))
+    tile, member = np.divmod(keys[first], max(n_items, 1))
     offset = np.concatenate(([0], np.cumsum(np.bincount(tile, minlength=n_tiles))))
-    return _Tiles(offset, member.astype(np.int32), bits)
+    return Tiles(offset, member.astype(np.int32), bits)
 
 
-def _chunks(
-    tiles: _Tiles, sizes: NDArray[np.intp], by_size: NDArray[np.intp], first_tile: int
-) -> list[Chunk]:
+def _chunks(tiles: Tiles, sizes: NDArray[np.intp], by_size: NDArray[np.intp], first_tile: int) -> list[Chunk]:
     """Return tiles, sorted by size, as chunks of one size each; short ones repeat a member without bits."""
     chunks = []
     begin = 0

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ..surface.connectivity import Connectivity
 from ..surface.surface_mesh import SurfaceMesh
 from ..transform.adaptive_level import Neighbors
-from .averages import Pairs
+from .averages import BITS, TILE, Members, united
 
 
 class Ragged(NamedTuple):
@@ -62,19 +62,27 @@ MOST_FACES = 64
 would grow with the square. In a fan they are neighbors by way of its rim, edge by edge."""
 
 
-def pairs_of_faces(surface: SurfaceMesh, at_vertex: Ragged, faces: NDArray[np.integer]) -> Pairs:
-    """Return the faces that share a vertex with each of some faces, itself included if it has a corner."""
-    sizes = surface.face_sizes()[faces]
-    owner = np.repeat(np.arange(len(faces)), sizes)
-    corner = np.arange(sizes.sum()) + np.repeat(
-        surface.face_offset[faces] - (np.cumsum(sizes) - sizes), sizes
-    )
-    vertex = surface.corner_vertex[corner]
-    counts = at_vertex.offset[vertex + 1] - at_vertex.offset[vertex]
+def members_around(surface: SurfaceMesh, at_vertex: Ragged, faces: NDArray[np.integer]) -> Members:
+    """Return the faces that share a vertex with the faces of tiles, shape (n, TILE), themselves included.
+
+    Faces without a corner share none.
+    """
+    n_tiles = len(faces)
+    flat = faces.ravel()
+    begin = surface.face_offset[flat]
+    sizes = surface.face_offset[flat + 1] - begin
+    place = np.repeat(np.arange(flat.size), sizes)
+    corner = np.arange(len(place)) + np.repeat(begin - (np.cumsum(sizes) - sizes), sizes)
+    tile, item = np.divmod(place, TILE)
+    vertices = united(Members(tile, surface.corner_vertex[corner], BITS[item]), n_tiles, surface.n_vertices)
+    counts = at_vertex.offset[vertices.member + 1] - at_vertex.offset[vertices.member]
     counts[counts > MOST_FACES] = 0
-    place = np.arange(counts.sum()) + np.repeat(
-        at_vertex.offset[vertex] - (np.cumsum(counts) - counts), counts
-    )
+    first = at_vertex.offset[vertices.member] - (np.cumsum(counts) - counts)
+    around = at_vertex.items[np.arange(counts.sum()) + np.repeat(first, counts)]
+    tile = np.repeat(np.repeat(np.arange(n_tiles), np.diff(vertices.offset)), counts)
     filled = np.flatnonzero(sizes)
-    row = np.concatenate((np.repeat(owner, counts), filled))
-    return Pairs(row, np.concatenate((at_vertex.items[place], faces[filled])))
+    return Members(
+        np.concatenate((tile, filled // TILE)),
+        np.concatenate((around, flat[filled])),
+        np.concatenate((np.repeat(vertices.bits, counts), BITS[filled % TILE])),
+    )
