@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ..blocks import Blocks
 from ..transform.adaptive_level import Neighbors
 from .face_pairs import FacePairs
+from .parts import empty_parts
 
 COUPLING = 10.0
 """Penalty mu; far larger than 1, so that a step changes directions little and normalizing is harmless."""
@@ -106,13 +107,16 @@ class _Reweighted:
         self._thresholds = [dtype.type(threshold * len(chunk.taps)) for chunk in pairs.chunks]
         self._sharpness = dtype.type(max(sharpness, float(np.finfo(dtype).tiny)))
         self._smallest = np.finfo(dtype).tiny
-        self._residual: list[NDArray[np.floating] | None] = [None] * len(pairs.chunks)
+        # Of k + 1 taps there are k (k + 1) / 2 pairs.
+        shapes = [(3, len(taps) * (len(taps) - 1) // 2, taps.shape[1]) for taps, _ in pairs.chunks]
+        self._residual = empty_parts(shapes, dtype)
+        self._is_started = [False] * len(pairs.chunks)
         self._factor: list[NDArray[np.floating] | None] = [None] * len(pairs.chunks)
 
     def __call__(self, index: int, apart: NDArray[np.floating]) -> None:
         """Shrink a chunk in place; a `Change`."""
-        residual = self._residual[index]
-        if residual is not None:
+        residual, is_started = self._residual[index], self._is_started[index]
+        if is_started:
             apart += residual
         norm = _lengths(apart)
         factor = self._factor[index]
@@ -120,15 +124,20 @@ class _Reweighted:
         np.maximum(norm, np.maximum(limit, self._smallest), out=norm)
         np.divide(limit, norm, out=norm)
         apart *= norm
-        self._residual[index] = apart.copy()
-        apart *= -2
-        if residual is not None:
-            apart += residual
+        if is_started:
+            back = residual - apart
+            back -= apart
+            residual[...] = apart
+            apart[...] = back
+        else:
+            residual[...] = apart
+            apart *= -2
+        self._is_started[index] = True
 
     def reweigh(self, index: int, apart: NDArray[np.floating]) -> None:
         """Set the factors of a chunk from its differences, and start afresh; a `Change`."""
         self._factor[index] = self._sharpness / (_lengths(apart) + self._sharpness)
-        self._residual[index] = None
+        self._is_started[index] = False
 
 
 def _lengths(vectors: NDArray[np.floating]) -> NDArray[np.floating]:
