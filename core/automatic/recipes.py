@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import cached_property
+from functools import cached_property, partial
 from typing import NamedTuple
 
 import numpy as np
@@ -14,16 +14,24 @@ from numpy.typing import NDArray
 from ..blocks import Blocks
 from ..denoising.constraints import Constraints
 from ..denoising.progress import rms_motion
-from ..normals.band_shrinkage import shrink_bands
+from ..memory import give_back
+from ..normals.band_shrinkage import shrink_inside
 from ..normals.face_averages import FaceAverages
 from ..normals.folds import unfold
 from ..normals.neighbors import edge_neighbors, faces_of_vertices
 from ..normals.noise_sample import area_vectors, noise_in_normals, normals_of, scrambled, vertex_means
-from ..normals.pilot import ITERATIONS, median_difference, pilot_normals, unit_columns
+from ..normals.pilot import (
+    ITERATIONS,
+    median_difference,
+    neighbor_distances,
+    pilot_normals,
+    unit_columns,
+)
 from ..normals.vertex_fit import VertexFit
 from ..normals.vertex_update import face_centroids
 from ..surface.connectivity import Connectivity
 from ..surface.surface_mesh import SurfaceMesh
+from ..transform.adaptive_level import Neighbors
 from .smooth_positions import RingAverages, smooth_positions
 
 
@@ -94,30 +102,34 @@ class NormalProblem:
         sample: NDArray[np.floating] | None = None,
     ) -> None:
         self.noisy, self.surface, self.blocks, self.sigma = noisy, surface, blocks, sigma
-        self.neighbors = edge_neighbors(surface, connectivity)
+        self._connectivity = connectivity
+        neighbors = self.neighbors
         self.at_vertex = faces_of_vertices(surface)
-        self.normals = normals_of(noisy, surface)
+        self.normals = normals_of(noisy, surface, blocks)
         if sample is None:
-            sample = unit_noise(scrambled(noisy, surface, self.at_vertex, sigma, 64.0))
+            sample = unit_noise(scrambled(noisy, surface, self.at_vertex, sigma, 64.0, blocks))
         self.sample = sample
         centroids = face_centroids(noisy, surface)
-        areas = np.sqrt((area_vectors(noisy, surface) ** 2).sum(axis=0))
-        own = np.repeat(np.arange(surface.n_faces), np.diff(self.neighbors.offset))
-        apart = centroids[:, self.neighbors.neighbor] - centroids[:, own]
-        distance = np.sqrt((apart * apart).sum(axis=0))
-        spatial_sigma = float(distance[distance > 0].mean()) if distance.any() else 1.0
+        areas = np.sqrt((area_vectors(noisy, surface, blocks) ** 2).sum(axis=0))
+        distance = neighbor_distances(centroids, neighbors, blocks)
+        distance = distance[distance > 0]
+        spatial_sigma = float(distance.mean()) if len(distance) else 1.0
         self.averages = FaceAverages(
             surface, self.at_vertex, np.ascontiguousarray(centroids.T), areas, spatial_sigma, blocks
         )
         little = noise_in_normals(noisy, TINY_STEP * sigma * sample, surface, self.at_vertex, blocks)
         # What a little noise does, scaled up, is too much for strong noise: no angle exceeds a half turn.
         self.unit = min(
-            median_difference(little, self.neighbors) / TINY_STEP,
-            median_difference(self.normals, self.neighbors),
+            median_difference(little, neighbors, blocks) / TINY_STEP,
+            median_difference(self.normals, neighbors, blocks),
         )
         self.fit = VertexFit(surface, self.at_vertex, blocks)
-        self._connectivity = connectivity
         self._pilots: dict[float, NDArray[np.floating]] = {}
+
+    @property
+    def neighbors(self) -> Neighbors:
+        """The faces across edges; made quickly, and large."""
+        return edge_neighbors(self.surface, self._connectivity)
 
     @cached_property
     def rings(self) -> RingAverages:
@@ -136,12 +148,11 @@ class NormalProblem:
                 lambda: tick(0.0),
                 unit=self.unit,
             )
+            give_back(self.surface.n_faces)
         normals = self._pilots[recipe.threshold]
         for range_sigma in recipe.range_sigmas:
-            cleaned = shrink_bands(
-                self.normals,
-                self._noise_around(normals),
-                normals,
+            cleaned = shrink_inside(
+                partial(self._fields_around, normals),
                 self.averages,
                 self.averages.weights(normals, range_sigma),
                 recipe.n_bands,
@@ -151,10 +162,13 @@ class NormalProblem:
             normals = unit_columns(cleaned, self.normals)
         return normals
 
-    def _noise_around(self, normals: NDArray[np.floating]) -> NDArray[np.floating]:
-        """Return a sample of the noise in normals, shape (3, F), on a surface with given normals."""
+    def _fields_around(self, normals: NDArray[np.floating]) -> NDArray[np.floating]:
+        """Return noisy normals, a sample of the noise in them on a surface with given normals, and these."""
         points = self.fitted(normals, PILOT_VERTEX_STEPS)
-        return noise_in_normals(points, self.sigma * self.sample, self.surface, self.at_vertex, self.blocks)
+        noise = noise_in_normals(points, self.sigma * self.sample, self.surface, self.at_vertex, self.blocks)
+        fields = self.averages.inward_rows([*self.normals, *noise, *normals])
+        give_back(self.surface.n_faces)
+        return fields
 
     def fitted(
         self,

@@ -28,7 +28,7 @@ def edge_neighbors(surface: SurfaceMesh, connectivity: Connectivity) -> Neighbor
     own = np.repeat(np.arange(surface.n_faces, dtype=np.int32), sizes)
     across = np.where(connectivity.face_across >= 0, connectivity.face_across, own)
     nothing = np.zeros(surface.n_faces, bool)
-    return Neighbors(surface.face_offset.astype(np.int64), across, nothing, nothing)
+    return Neighbors(surface.face_offset, across, nothing, nothing)
 
 
 def faces_of_vertices(surface: SurfaceMesh) -> Ragged:

@@ -71,7 +71,7 @@ def pilot_normals(
     n + W*(b - 2 b'), in which only differences count: the low-pass is neither made nor sent back.
     """
     pairs = FacePairs(neighbors, blocks)
-    scale = median_difference(noisy, neighbors) if unit is None else unit
+    scale = median_difference(noisy, neighbors, blocks) if unit is None else unit
     shrink = _Reweighted(pairs, threshold * scale, sharpness, noisy.dtype)
     mu = noisy.dtype.type(COUPLING)
     normals = noisy
@@ -141,7 +141,7 @@ class _Reweighted:
 
 
 def _lengths(vectors: NDArray[np.floating]) -> NDArray[np.floating]:
-    """Return lengths, shape (H, n), of vectors (3, H, n)."""
+    """Return lengths, shape (...), of vectors (3, ...)."""
     squares = vectors[0] * vectors[0]
     squares += vectors[1] * vectors[1]
     squares += vectors[2] * vectors[2]
@@ -155,12 +155,26 @@ def unit_columns(vectors: NDArray[np.floating], fallback: NDArray[np.floating]) 
     return np.where(good, vectors / np.where(good, length, 1), fallback)
 
 
-def median_difference(normals: NDArray[np.floating], neighbors: Neighbors) -> float:
+def median_difference(
+    normals: NDArray[np.floating], neighbors: Neighbors, blocks: Blocks | None = None
+) -> float:
     """Return the median of |n_f - n_g| over neighboring faces, 0.0 if no face has a neighbor."""
-    counts = np.diff(neighbors.offset)
-    own = np.repeat(np.arange(len(counts)), counts)
-    apart = own < neighbors.neighbor  # every pair once, and no face with itself
-    if not apart.any():
-        return 0.0
-    difference = normals[:, own[apart]] - normals[:, neighbors.neighbor[apart]]
-    return float(np.median(np.sqrt((difference * difference).sum(axis=0))))
+    apart = neighbor_distances(normals, neighbors, blocks)
+    return float(np.median(apart)) if len(apart) else 0.0
+
+
+def neighbor_distances(
+    values: NDArray[np.floating], neighbors: Neighbors, blocks: Blocks | None = None
+) -> NDArray[np.floating]:
+    """Return |v_f - v_g| of all neighboring faces f < g, shape (n,), for values of shape (3, F)."""
+    offset = neighbors.offset
+
+    def kernel(start: int, stop: int) -> NDArray[np.floating]:
+        own = np.repeat(np.arange(start, stop, dtype=np.int32), np.diff(offset[start : stop + 1]))
+        other = neighbors.neighbor[offset[start] : offset[stop]]
+        once = np.flatnonzero(own < other)  # every pair once, and no face with itself
+        apart = values.take(own[once], axis=1)
+        apart -= values.take(other[once], axis=1)
+        return _lengths(apart)
+
+    return np.concatenate((blocks or Blocks(1)).run(kernel, len(offset) - 1))

@@ -26,7 +26,7 @@ class Neighbors(NamedTuple):
 
     Attributes
     ----------
-    offset : ndarray, shape (N + 1,), int64
+    offset : ndarray of int, shape (N + 1,)
         The neighbors of site k are `neighbor[offset[k]:offset[k + 1]]`.
     neighbor : ndarray of int32
         Sites.
@@ -36,7 +36,7 @@ class Neighbors(NamedTuple):
         Sites whose details shrinkage leaves alone.
     """
 
-    offset: NDArray[np.int64]
+    offset: NDArray[np.integer]
     neighbor: NDArray[np.int32]
     is_ordered: NDArray[np.bool_]
     is_kept: NDArray[np.bool_]
