@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
+from ..normals.centroids import face_centroids
 from ..normals.neighbors import Ragged, faces_of_vertices
 from ..normals.noise_sample import area_vectors, normals_of, scrambled, vertex_means
 from ..normals.pilot import unit_columns
-from ..normals.vertex_update import face_centroids
 from ..surface.connectivity import connect
 from ..surface.surface_mesh import SurfaceMesh
 from .patches import trial_part

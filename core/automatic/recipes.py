@@ -13,22 +13,20 @@ from numpy.typing import NDArray
 
 from ..blocks import Blocks
 from ..denoising.constraints import Constraints
-from ..denoising.progress import rms_motion
 from ..memory import give_back
 from ..normals.band_shrinkage import shrink_inside
-from ..normals.face_averages import FaceAverages
+from ..normals.centroids import face_centroids
+from ..normals.face_averages import face_averages
 from ..normals.folds import unfold
 from ..normals.neighbors import edge_neighbors, faces_of_vertices
 from ..normals.noise_sample import area_vectors, noise_in_normals, normals_of, scrambled, vertex_means
 from ..normals.pilot import (
     ITERATIONS,
     median_difference,
-    neighbor_distances,
     pilot_normals,
     unit_columns,
 )
 from ..normals.vertex_fit import VertexFit
-from ..normals.vertex_update import face_centroids
 from ..surface.connectivity import Connectivity
 from ..surface.surface_mesh import SurfaceMesh
 from ..transform.adaptive_level import Neighbors
@@ -109,14 +107,8 @@ class NormalProblem:
         if sample is None:
             sample = unit_noise(scrambled(noisy, surface, self.at_vertex, sigma, 64.0, blocks))
         self.sample = sample
-        centroids = face_centroids(noisy, surface)
         areas = np.sqrt((area_vectors(noisy, surface, blocks) ** 2).sum(axis=0))
-        distance = neighbor_distances(centroids, neighbors, blocks)
-        distance = distance[distance > 0]
-        spatial_sigma = float(distance.mean()) if len(distance) else 1.0
-        self.averages = FaceAverages(
-            surface, self.at_vertex, np.ascontiguousarray(centroids.T), areas, spatial_sigma, blocks
-        )
+        self.averages = face_averages(noisy, surface, self.at_vertex, neighbors, areas, blocks)
         little = noise_in_normals(noisy, TINY_STEP * sigma * sample, surface, self.at_vertex, blocks)
         # What a little noise does, scaled up, is too much for strong noise: no angle exceeds a half turn.
         self.unit = min(
@@ -178,17 +170,12 @@ class NormalProblem:
         tick: Tick | None = None,
     ) -> NDArray[np.floating]:
         """Return positions, shape (3, N), whose faces have the wanted normals as far as possible."""
-        steps = self.fit.steps(self.noisy, normals)
-        displacement = np.zeros_like(self.noisy)
-        for _ in range(n_steps):
-            before, displacement = displacement, steps.advance(displacement)
-            if constraints is not None:
-                points = self.noisy + displacement
-                constraints.apply(points, self.noisy)
-                displacement = points - self.noisy
+        found = self.noisy
+        for points, change in self.fit.steps(self.noisy, normals).points(n_steps, constraints):
+            found = points
             if tick is not None:
-                tick(rms_motion(displacement, before, self.blocks))
-        return self.noisy + displacement
+                tick(change)
+        return found
 
     def run(
         self,

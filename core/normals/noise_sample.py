@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from ..blocks import Blocks
 from ..surface.surface_mesh import SurfaceMesh
+from .centroids import face_centroids
 from .neighbors import Ragged
 from .pilot import unit_columns
-from .vertex_update import face_centroids
 
 PERIODS = 64.0
 """Periods of the scrambled roughness in one standard deviation of the noise: many, so that the values within
