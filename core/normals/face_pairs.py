@@ -70,7 +70,7 @@ class FacePairs:
         """Find where each face stands among all taps, and the measure."""
         taps = np.concatenate([chunk.taps.ravel() for chunk in self.chunks])
         weights = np.concatenate([np.full(c.taps.size, 1.0 / len(c.taps)) for c in self.chunks])
-        self.measure: NDArray[np.float64] = np.bincount(taps, weights, self.n_faces)
+        self.measure = np.bincount(taps, weights, self.n_faces).astype(np.float64)
         order = stable_order(taps, self.n_faces)
         counts = np.bincount(taps, minlength=self.n_faces)
         begin = np.cumsum(counts) - counts
