@@ -23,8 +23,6 @@ from .parts import empty_parts, in_one_array
 TAPS_AT_ONCE = 2**15
 """Taps that a chunk may hold, so that its arrays stay in the cache at any number of edges."""
 
-FACES_AT_ONCE = 2**14
-
 Change = Callable[[int, NDArray[np.floating]], None]
 """`change(index, apart)` replaces the differences n_i - n_j of a chunk, shape (3, pairs, n), in place."""
 
@@ -48,7 +46,7 @@ class FacePairs:
     """
 
     def __init__(self, neighbors: Neighbors, blocks: Blocks) -> None:
-        self._one, self._blocks = blocks.sized(1), blocks.sized(FACES_AT_ONCE)
+        self._one = blocks.sized(1)
         counts = np.diff(neighbors.offset)
         self.n_faces = len(counts)
         groups = []
