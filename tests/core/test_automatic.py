@@ -85,6 +85,7 @@ SMALL = {
     "means.MEMBERS_AT_ONCE": 100,
     "means.CHUNKS_AT_ONCE": 1,
     "face_pairs.TAPS_AT_ONCE": 100,
+    "face_pairs.CHUNKS_AT_ONCE": 2,
 }
 """Sizes of pieces of work, so that even small meshes have several."""
 
