@@ -115,13 +115,17 @@ class NormalProblem:
             median_difference(little, neighbors, blocks) / TINY_STEP,
             median_difference(self.normals, neighbors, blocks),
         )
-        self.fit = VertexFit(surface, self.at_vertex, blocks)
         self._pilots: dict[float, NDArray[np.floating]] = {}
 
     @property
     def neighbors(self) -> Neighbors:
         """The faces across edges; made quickly, and large."""
         return edge_neighbors(self.surface, self._connectivity)
+
+    @cached_property
+    def fit(self) -> VertexFit:
+        """Steps of the vertices."""
+        return VertexFit(self.surface, self.at_vertex, self.blocks)
 
     @cached_property
     def rings(self) -> RingAverages:
@@ -159,6 +163,7 @@ class NormalProblem:
         points = self.fitted(normals, PILOT_VERTEX_STEPS)
         noise = noise_in_normals(points, self.sigma * self.sample, self.surface, self.at_vertex, self.blocks)
         fields = self.averages.inward_rows([*self.normals, *noise, *normals])
+        del self.fit  # made again quickly, and large when memory is needed most
         give_back(self.surface.n_faces)
         return fields
 
