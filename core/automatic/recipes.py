@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -13,7 +14,7 @@ from numpy.typing import NDArray
 from ..blocks import Blocks
 from ..denoising.constraints import Constraints
 from ..denoising.progress import rms_motion
-from ..normals.band_shrinkage import shrink_bands, unit_rows
+from ..normals.band_shrinkage import shrink_bands
 from ..normals.face_averages import FaceAverages
 from ..normals.folds import unfold
 from ..normals.neighbors import edge_neighbors, faces_of_vertices
@@ -115,8 +116,13 @@ class NormalProblem:
             median_difference(self.normals, self.neighbors),
         )
         self.fit = VertexFit(surface, self.at_vertex, blocks)
-        self.rings = RingAverages(connectivity, blocks)
+        self._connectivity = connectivity
         self._pilots: dict[float, NDArray[np.floating]] = {}
+
+    @cached_property
+    def rings(self) -> RingAverages:
+        """Means over the neighbors of each vertex."""
+        return RingAverages(self._connectivity, self.blocks)
 
     def clean_normals(self, recipe: Recipe, tick: Tick = lambda _: None) -> NDArray[np.floating]:
         """Return unit normals, shape (3, F)."""
@@ -131,25 +137,24 @@ class NormalProblem:
                 unit=self.unit,
             )
         normals = self._pilots[recipe.threshold]
-        noisy = np.ascontiguousarray(self.normals.T)
         for range_sigma in recipe.range_sigmas:
-            points = self.fitted(normals, PILOT_VERTEX_STEPS)
-            noise = noise_in_normals(
-                points, self.sigma * self.sample, self.surface, self.at_vertex, self.blocks
-            )
-            pilot = np.ascontiguousarray(normals.T)
             cleaned = shrink_bands(
-                noisy,
-                np.ascontiguousarray(noise.T),
-                pilot,
+                self.normals,
+                self._noise_around(normals),
+                normals,
                 self.averages,
-                self.averages.weights(pilot, range_sigma),
+                self.averages.weights(normals, range_sigma),
                 recipe.n_bands,
                 recipe.caution,
                 lambda: tick(0.0),
             )
-            normals = np.ascontiguousarray(unit_rows(cleaned, noisy).T)
+            normals = unit_columns(cleaned, self.normals)
         return normals
+
+    def _noise_around(self, normals: NDArray[np.floating]) -> NDArray[np.floating]:
+        """Return a sample of the noise in normals, shape (3, F), on a surface with given normals."""
+        points = self.fitted(normals, PILOT_VERTEX_STEPS)
+        return noise_in_normals(points, self.sigma * self.sample, self.surface, self.at_vertex, self.blocks)
 
     def fitted(
         self,
@@ -214,8 +219,7 @@ class NormalProblem:
 
     def _ring_mean(self, points: NDArray[np.floating]) -> NDArray[np.floating]:
         """Return the means over the neighbors of each vertex, shape (3, N)."""
-        weights = self.rings.weights(0.0, points.dtype)
-        return self.rings.average(weights, np.ascontiguousarray(points.T)).T
+        return self.rings.mean_of(points)
 
 
 def unit_noise(number: NDArray[np.floating]) -> NDArray[np.floating]:

@@ -41,7 +41,7 @@ def shrink_bands(
 
     Parameters
     ----------
-    noisy, noise, pilot : ndarray, shape (F, 3)
+    noisy, noise, pilot : ndarray, shape (3, F)
         Noisy unit normals; a sample of the noise in them; clean unit normals as far as they are known. Not
         modified.
     averages : Averages
@@ -57,7 +57,7 @@ def shrink_bands(
 
     Returns
     -------
-    ndarray, shape (F, 3)
+    ndarray, shape (3, F)
         Clean vectors, not yet of length 1.
 
     Notes
@@ -66,36 +66,100 @@ def shrink_bands(
     noise. Squares make it steeper than Wiener's E / (E + N): bands of pure noise, where E is what the pilot
     left of it, come closer to 0.
     """
-    low = np.concatenate((noisy, noise, pilot), axis=1)
-    result = np.zeros_like(noisy)
-    tiny = np.finfo(noisy.dtype).tiny
+    rows = (row for field in (noisy, noise, pilot) for row in field)
+    fields = averages.inward_rows(list(rows))
+    shrunk = _Shrunk(averages, weights, fields, caution)
     for band in range(n_bands):
-        before = low
+        before = fields
         for _ in range(1 if band == 0 else 2 ** (band - 1)):
-            low = averages.average(weights, low)
-        high = before - low
-        energy = np.stack(
-            (
-                np.einsum("fc,fc->f", high[:, 3:6], high[:, 3:6]),
-                np.einsum("fc,fc->f", high[:, 6:], high[:, 6:]),
-            ),
-            axis=1,
-        )
-        for _ in range(min(WIDEST, max(2, 2**band))):
-            energy = averages.average(weights, energy)
-        signal = energy[:, 1] * energy[:, 1]
-        spoiled = energy[:, 0] * caution
-        spoiled *= spoiled
-        spoiled += signal
-        gain = np.divide(signal, spoiled, out=np.ones_like(signal), where=spoiled > tiny)
-        result += gain[:, None] * high[:, :3]
+            fields = shrunk.average(fields)
+        fields = shrunk.take_band(before, fields, min(WIDEST, max(2, 2**band)))
         tick()
-    result += low[:, :3]
-    return result
+    return averages.outward(shrunk.finish(fields)).T
 
 
-def unit_rows(vectors: NDArray[np.floating], fallback: NDArray[np.floating]) -> NDArray[np.floating]:
-    """Return vectors, shape (n, 3), scaled to length one; where there is no direction, the fallback."""
-    length = np.sqrt(np.einsum("nc,nc->n", vectors, vectors))[:, None]
-    good = length > np.finfo(vectors.dtype).tiny ** 0.5
-    return np.where(good, vectors / np.where(good, length, 1), fallback)
+_N = 9  # columns of the three fields
+
+
+class _Shrunk:
+    """The sum of shrunk bands. Local energies of a band are smoothed while the next one is made.
+
+    They are columns behind those of the fields, two for each band that waits: to average them along with the
+    fields costs hardly more than the fields alone.
+    """
+
+    def __init__(
+        self, averages: Averages, weights: Weights, fields: NDArray[np.floating], caution: float
+    ) -> None:
+        self._averages, self._weights = averages, weights
+        self._caution = fields.dtype.type(caution)
+        self._tiny = np.finfo(fields.dtype).tiny
+        self._result = np.zeros((len(fields), 3), fields.dtype)
+        self._waiting: list[_Band] = []  # those with fewer averages to come are first
+
+    def average(self, fields: NDArray[np.floating]) -> NDArray[np.floating]:
+        """Return the next fields and energies; what is smooth enough then is shrunk and added."""
+        fields = self._averages.average(self._weights, fields)
+        for band in self._waiting:
+            band.steps -= 1
+        while self._waiting and not self._waiting[0].steps:
+            self._add(self._waiting.pop(0), fields)
+        return fields
+
+    def take_band(
+        self, before: NDArray[np.floating], after: NDArray[np.floating], steps: int
+    ) -> NDArray[np.floating]:
+        """Let the band `before` - `after` wait, and return the fields and all energies that wait."""
+        high = np.empty((len(after), 3), after.dtype)
+        kept = [column for band in self._waiting for column in (band.column, band.column + 1)]
+        fields = np.empty((len(after), _N + len(kept) + 2), after.dtype)
+
+        def split(start: int, stop: int) -> None:
+            part = fields[start:stop]
+            part[:, :_N] = after[start:stop, :_N]
+            for to, column in enumerate(kept, _N):
+                part[:, to] = after[start:stop, column]
+            band = before[start:stop, :_N] - part[:, :_N]
+            high[start:stop] = band[:, :3]
+            band *= band
+            for to, begin in ((-2, 3), (-1, 6)):
+                np.add(band[:, begin], band[:, begin + 1], out=part[:, to])
+                part[:, to] += band[:, begin + 2]
+
+        self._averages.for_items(split)
+        self._waiting.append(_Band(steps, high))
+        for index, waiting in enumerate(self._waiting):
+            waiting.column = _N + 2 * index
+        return fields
+
+    def finish(self, fields: NDArray[np.floating]) -> NDArray[np.floating]:
+        """Return the sum of all bands and of the last low-pass, shape (n, 3)."""
+        low, energies = fields[:, :3], np.ascontiguousarray(fields[:, _N:])
+        for band in self._waiting:
+            band.column -= _N
+        while self._waiting:
+            energies = self.average(energies)
+        self._result += low
+        return self._result
+
+    def _add(self, band: _Band, fields: NDArray[np.floating]) -> None:
+        """Shrink a band by its energies, and add it."""
+
+        def add(start: int, stop: int) -> None:
+            part = slice(start, stop)
+            signal = np.square(fields[part, band.column + 1])
+            spoiled = fields[part, band.column] * self._caution
+            spoiled *= spoiled
+            spoiled += signal
+            gain = np.divide(signal, spoiled, out=np.ones_like(signal), where=spoiled > self._tiny)
+            for column in range(3):
+                self._result[part, column] += gain * band.high[part, column]
+
+        self._averages.for_items(add)
+
+
+class _Band:
+    """A band that waits for its energies: averages to come, its high-pass (n, 3), and where they are."""
+
+    def __init__(self, steps: int, high: NDArray[np.floating]) -> None:
+        self.steps, self.high, self.column = steps, high, 0

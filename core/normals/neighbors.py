@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ..surface.connectivity import Connectivity
 from ..surface.surface_mesh import SurfaceMesh
 from ..transform.adaptive_level import Neighbors
+from .averages import BITS, TILE, Members, united
 
 
 class Ragged(NamedTuple):
@@ -54,3 +55,34 @@ def faces_around(surface: SurfaceMesh, at_vertex: Ragged, start: int, stop: int)
     row, face = np.divmod(keys[is_first], max(surface.n_faces, 1))
     found = np.bincount(row, minlength=stop - start)
     return Ragged(np.concatenate(([0], np.cumsum(found))), face.astype(np.int32))
+
+
+MOST_FACES = 64
+"""Faces at a vertex beyond which they do not count as neighbors by way of that vertex: the number of pairs
+would grow with the square. In a fan they are neighbors by way of its rim, edge by edge."""
+
+
+def members_around(surface: SurfaceMesh, at_vertex: Ragged, faces: NDArray[np.integer]) -> Members:
+    """Return the faces that share a vertex with the faces of tiles, shape (n, TILE), themselves included.
+
+    Faces without a corner share none.
+    """
+    n_tiles = len(faces)
+    flat = faces.ravel()
+    begin = surface.face_offset[flat]
+    sizes = surface.face_offset[flat + 1] - begin
+    place = np.repeat(np.arange(flat.size), sizes)
+    corner = np.arange(len(place)) + np.repeat(begin - (np.cumsum(sizes) - sizes), sizes)
+    tile, item = np.divmod(place, TILE)
+    vertices = united(Members(tile, surface.corner_vertex[corner], BITS[item]), n_tiles, surface.n_vertices)
+    counts = at_vertex.offset[vertices.member + 1] - at_vertex.offset[vertices.member]
+    counts[counts > MOST_FACES] = 0
+    first = at_vertex.offset[vertices.member] - (np.cumsum(counts) - counts)
+    around = at_vertex.items[np.arange(counts.sum()) + np.repeat(first, counts)]
+    tile = np.repeat(np.repeat(np.arange(n_tiles), np.diff(vertices.offset)), counts)
+    filled = np.flatnonzero(sizes)
+    return Members(
+        np.concatenate((tile, filled // TILE)),
+        np.concatenate((around, flat[filled])),
+        np.concatenate((np.repeat(vertices.bits, counts), BITS[filled % TILE])),
+    )

@@ -10,9 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
-from ..frames.valence_masks import PairwiseBank
-from ..transform.adaptive_level import AdaptiveLevel, Neighbors
-from ..transform.level import Chunk
+from ..transform.adaptive_level import Neighbors
+from .face_pairs import FacePairs
 
 COUPLING = 10.0
 """Penalty mu; far larger than 1, so that a step changes directions little and normalizing is harmless."""
@@ -67,66 +66,72 @@ def pilot_normals(
     -----
     n <- normalize((n0 + mu W*(d - b)) / (1 + mu)), d <- T(W n + b), b <- b + W n - d, where T shrinks each
     difference vector. Low-pass weights are equal, 1 / (k + 1) for a face with k edges, so that on closed
-    meshes of one kind of faces the measure is constant.
+    meshes of one kind of faces the measure is constant. As W* W n = n, and with the new b', W*(d - b') is
+    n + W*(b - 2 b'), in which only differences count: the low-pass is neither made nor sent back.
     """
-    level = AdaptiveLevel(neighbors, _EqualBank, np.ones(noisy.shape[1]), noisy.dtype, blocks)
+    pairs = FacePairs(neighbors, blocks)
     scale = median_difference(noisy, neighbors) if unit is None else unit
-    shrink = _Reweighted(len(level.sites), threshold * scale, sharpness)
+    shrink = _Reweighted(pairs, threshold * scale, sharpness, noisy.dtype)
     mu = noisy.dtype.type(COUPLING)
     normals = noisy
     for round_ in range(n_rounds(sharpness)):
         if round_:
-            level.forward(normals, shrink.reweigh)
-        normals = noisy
+            pairs.visit(normals, shrink.reweigh)
+        normals = noisy.copy()
         for _ in range(ITERATIONS):
-            low, pending = level.forward(normals, shrink)
-            normals = unit_columns(noisy + mu * level.backward(low, pending), noisy)
+            returned = pairs.returned(normals, shrink)
+
+            def step(
+                faces: NDArray[np.int32] | slice,
+                change: NDArray[np.floating],
+                normals: NDArray[np.floating] = normals,
+            ) -> None:
+                change += normals[:, faces]
+                change *= mu
+                change += noisy[:, faces]
+                normals[:, faces] = unit_columns(change, noisy[:, faces])
+
+            returned.for_faces(step)
             tick()
     return normals
 
 
-class _EqualBank(PairwiseBank):
-    """Differences with equal weights: a pair of normals has the coefficient (n_i - n_j) / (k + 1)."""
-
-    def __init__(self, valence: int) -> None:
-        super().__init__(valence, np.full(valence + 1, 1.0 / (valence + 1)))
-
-
 class _Reweighted:
-    """Turns differences y into y - 2 b with thresholds of their own, and keeps b."""
+    """Turns differences n_i - n_j into b - 2 b' with thresholds of their own, and keeps b'.
 
-    def __init__(self, n_chunks: int, threshold: float, sharpness: float) -> None:
-        self._threshold = threshold
-        self._sharpness = sharpness
-        self._residual: list[Chunk | None] = [None] * n_chunks
-        self._factor: list[NDArray[np.floating] | None] = [None] * n_chunks
+    All are k + 1 times those of the coefficients.
+    """
 
-    def __call__(self, index: int, high: Chunk) -> None:
-        """Shrink a chunk in place; a `Visit`."""
+    def __init__(self, pairs: FacePairs, threshold: float, sharpness: float, dtype: np.dtype) -> None:
+        self._thresholds = [dtype.type(threshold * len(chunk.taps)) for chunk in pairs.chunks]
+        self._sharpness = dtype.type(max(sharpness, float(np.finfo(dtype).tiny)))
+        self._smallest = np.finfo(dtype).tiny
+        self._residual: list[NDArray[np.floating] | None] = [None] * len(pairs.chunks)
+        self._factor: list[NDArray[np.floating] | None] = [None] * len(pairs.chunks)
+
+    def __call__(self, index: int, apart: NDArray[np.floating]) -> None:
+        """Shrink a chunk in place; a `Change`."""
         residual = self._residual[index]
         if residual is not None:
-            high += residual
-        norm = _lengths(high)
-        threshold = high.dtype.type(self._threshold)
+            apart += residual
+        norm = _lengths(apart)
         factor = self._factor[index]
-        limit = threshold if factor is None else threshold * factor
-        np.maximum(norm, np.maximum(limit, np.finfo(high.dtype).tiny), out=norm)
+        limit = self._thresholds[index] if factor is None else self._thresholds[index] * factor
+        np.maximum(norm, np.maximum(limit, self._smallest), out=norm)
         np.divide(limit, norm, out=norm)
-        cut = high * norm
-        self._residual[index] = cut
-        high -= cut
-        high -= cut
+        apart *= norm
+        self._residual[index] = apart.copy()
+        apart *= -2
+        if residual is not None:
+            apart += residual
 
-    def reweigh(self, index: int, high: Chunk) -> None:
-        """Set the factors of a chunk from its differences, and start afresh; a `Visit`."""
-        # Coefficients are differences divided by k + 1, and there are k (k + 1) / 2 of them.
-        n_slots = (1.0 + np.sqrt(1.0 + 8.0 * high.shape[1])) / 2.0
-        eps = high.dtype.type(max(self._sharpness, float(np.finfo(high.dtype).tiny)))
-        self._factor[index] = eps / (_lengths(high) * high.dtype.type(n_slots) + eps)
+    def reweigh(self, index: int, apart: NDArray[np.floating]) -> None:
+        """Set the factors of a chunk from its differences, and start afresh; a `Change`."""
+        self._factor[index] = self._sharpness / (_lengths(apart) + self._sharpness)
         self._residual[index] = None
 
 
-def _lengths(vectors: Chunk) -> NDArray[np.floating]:
+def _lengths(vectors: NDArray[np.floating]) -> NDArray[np.floating]:
     """Return lengths, shape (H, n), of vectors (3, H, n)."""
     squares = vectors[0] * vectors[0]
     squares += vectors[1] * vectors[1]

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from framelet.core import PRESETS, SurfaceMesh, blocks, denoise
 from framelet.core.automatic import filter as engine
-from framelet.core.normals.averages import ITEMS_AT_ONCE
+from framelet.core.normals.means import ITEMS_IN_BLOCK
 from mesh_files import mesh_files, read_mesh
 from meshes import MESHES, bow_tie, clean_soup, faces_of, noisy, pyramid, soup, union
 
@@ -66,9 +66,9 @@ def test_many_fans_and_high_valences(build, rng):
 
 
 def test_many_loose_vertices(rng):
-    """More than two blocks of averages, so that a block has no neighbors at all."""
+    """More than a block of means, so that a block has no neighbors at all."""
     mesh = noisy(MESHES["tetrahedron"](), rng)
-    loose = rng.normal(size=(3 * ITEMS_AT_ONCE, 3))
+    loose = rng.normal(size=(ITEMS_IN_BLOCK + 7, 3))
     assert_finite(SurfaceMesh.from_faces(np.concatenate((mesh.vertices, loose)), faces_of(mesh)))
     shifted = [[v + len(loose) for v in face] for face in faces_of(mesh)]
     assert_finite(SurfaceMesh.from_faces(np.concatenate((loose, mesh.vertices)), shifted))

@@ -7,11 +7,10 @@ import pytest
 from checks import lengths
 from framelet.core import DenoiseSettings, SurfaceMesh, connect, denoise
 from framelet.core.blocks import Blocks
-from framelet.core.normals import pilot
+from framelet.core.normals import face_pairs, pilot
 from framelet.core.normals.averaging import GuidedAverage
 from framelet.core.normals.neighbors import edge_neighbors, faces_around, faces_of_vertices
 from framelet.core.normals.vertex_update import face_centroids, update_vertices
-from framelet.core.transform.adaptive_level import AdaptiveLevel
 from meshes import MESHES, faces_of, flipped, noisy, soup, triangle_grid, triangle_torus, union
 from twins import faces_across, faces_touching, newell
 
@@ -135,24 +134,37 @@ def test_faces_around_faces_and_vertices(kind):
 
 
 @KIND
-def test_the_face_frame_is_tight(kind, rng):
+@pytest.mark.parametrize("at_once", [1, 2**14], ids=["small chunks", "large chunks"])
+def test_the_face_frame_is_tight(kind, at_once, rng, monkeypatch):
     """In the measure that equal weights pull back: constant if all faces are of one kind."""
+    monkeypatch.setattr(face_pairs, "TAPS_AT_ONCE", 6 * at_once)
     mesh = KINDS[kind]()
-    neighbors, table = edge_neighbors(mesh, connect(mesh)), faces_across(mesh)
-    level = AdaptiveLevel(neighbors, pilot._EqualBank, np.ones(mesh.n_faces), np.float64, ALONE)
-    assert np.abs(level.measure - measure_of(table)).max() < ROUNDING
+    pairs, table = face_pairs.FacePairs(edge_neighbors(mesh, connect(mesh)), ALONE), faces_across(mesh)
+    low, high, slots = frame_of(table)
+    assert np.abs(pairs.measure - measure_of(table)).max() < ROUNDING
     if len(set(mesh.face_sizes().tolist())) == 1:
-        assert np.abs(level.measure - 1).max() < ROUNDING
-    assert kind not in ("mixed", "polygons") or np.ptp(level.measure) > 0.01
-    normals = rng.normal(size=(3, mesh.n_faces))
-    chunks = {}
-    low, pending = level.forward(normals, lambda index, high: chunks.update({index: high.copy()}))
-    chunks = [chunks[index] for index in range(len(level.sites))]
-    energy = (low**2).sum() + sum((high**2).sum() for high in chunks)
-    assert energy == pytest.approx((level.measure * normals**2).sum(), rel=ROUNDING)
-    assert np.abs(low.T - frame_of(table)[0] @ normals.T).max() < ROUNDING
-    assert np.abs(level.adjoint(low, chunks) - normals).max() < ROUNDING
-    assert np.abs(level.backward(low, pending) - normals).max() < ROUNDING
+        assert np.abs(pairs.measure - 1).max() < ROUNDING
+    assert kind not in ("mixed", "polygons") or np.ptp(pairs.measure) > 0.01
+    assert np.abs(low.T @ low + high.T @ high - np.diag(pairs.measure)).max() < ROUNDING
+    normals, factor = rng.normal(size=(mesh.n_faces, 3)), rng.normal(size=(len(high), 3))
+    # Rows of the table come face by face, chunks by the number of taps.
+    at = np.repeat(np.arange(mesh.n_faces), [len(near) * (len(near) + 1) // 2 for near in table])
+
+    def change(index, apart):
+        chunk = pairs.chunks[index]
+        rows = np.array([np.flatnonzero(at == face) for face in chunk.taps[0]], int).reshape(
+            len(chunk.taps[0]), -1
+        )
+        expected = (high @ normals * slots[:, None])[rows]
+        assert np.abs(apart - expected.transpose(2, 1, 0)).max(initial=0) < ROUNDING
+        apart *= factor[rows].transpose(2, 1, 0)
+
+    found = np.full((3, mesh.n_faces), np.nan)
+    pairs.returned(normals.T, change).for_faces(
+        lambda faces, values: found.__setitem__((slice(None), faces), values)
+    )
+    expected = high.T @ (factor * (high @ normals)) / measure_of(table)[:, None]
+    assert np.abs(found.T - expected).max() < ROUNDING
 
 
 @KIND

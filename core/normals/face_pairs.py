@@ -1,0 +1,162 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The pairwise frame on faces with equal weights, W, and what goes back through its adjoint, fused.
+
+The stencil of a face is the face and its neighbors across edges: its taps. A pair i, j of k + 1 taps has the
+coefficient (n_i - n_j) / (k + 1). The frame is that of `frames.valence_masks.PairwiseBank`, tight with
+respect to the measure that the equal weights pull back to the faces.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..blocks import Blocks
+from ..surface.locality import stable_order
+from ..transform.adaptive_level import Neighbors
+
+TAPS_AT_ONCE = 2**15
+"""Taps that a chunk may hold, so that its arrays stay in the cache at any number of edges."""
+
+FACES_AT_ONCE = 2**14
+
+Change = Callable[[int, NDArray[np.floating]], None]
+"""`change(index, apart)` replaces the differences n_i - n_j of a chunk, shape (3, pairs, n), in place."""
+
+
+class _Chunk:
+    """Faces with as many neighbors: their taps, shape (k + 1, n), and where these stand among all taps."""
+
+    def __init__(self, faces: NDArray[np.int32], neighbors: Neighbors, count: int, begin: int) -> None:
+        self.taps = np.empty((count + 1, len(faces)), np.int32)
+        self.taps[0] = faces
+        self.taps[1:] = neighbors.neighbor[neighbors.offset[faces] + np.arange(count)[:, None]]
+        self.place = slice(begin, begin + self.taps.size)
+
+
+class FacePairs:
+    """Differences of all pairs of taps of all faces.
+
+    Parameters
+    ----------
+    neighbors : Neighbors
+        Faces across edges.
+    blocks : Blocks
+        Threads to work on.
+    """
+
+    def __init__(self, neighbors: Neighbors, blocks: Blocks) -> None:
+        self._one, self._blocks = blocks.sized(1), blocks.sized(FACES_AT_ONCE)
+        counts = np.diff(neighbors.offset)
+        self.n_faces = len(counts)
+        self.chunks: list[_Chunk] = []
+        begin = 0
+        for count in np.unique(counts):
+            group = np.flatnonzero(counts == count).astype(np.int32)
+            size = max(1, TAPS_AT_ONCE // (int(count) + 1))
+            for part in np.split(group, range(size, len(group), size)):
+                self.chunks.append(_Chunk(part, neighbors, int(count), begin))
+                begin += (int(count) + 1) * len(part)
+        self._n_slots = begin
+        self._set_sources()
+
+    def _set_sources(self) -> None:
+        """Find where each face stands among all taps, and the measure."""
+        taps = np.concatenate([chunk.taps.ravel() for chunk in self.chunks])
+        weights = np.concatenate([np.full(c.taps.size, 1.0 / len(c.taps)) for c in self.chunks])
+        self.measure = np.bincount(taps, weights, self.n_faces)
+        order = stable_order(taps, self.n_faces)
+        counts = np.bincount(taps, minlength=self.n_faces)
+        begin = np.cumsum(counts) - counts
+        self._sources: list[tuple[NDArray[np.int32], NDArray[np.int32]]] = []
+        for count in np.unique(counts):
+            group = np.flatnonzero(counts == count).astype(np.int32)
+            size = max(1, TAPS_AT_ONCE // int(count))
+            for part in np.split(group, range(size, len(group), size)):
+                self._sources.append((part, order[begin[part] + np.arange(count)[:, None]]))
+
+    def visit(self, normals: NDArray[np.floating], use: Change) -> None:
+        """Call a function with the differences n_i - n_j of each chunk, on threads."""
+
+        def kernel(index: int, _: int) -> None:
+            use(index, _differences(normals.take(self.chunks[index].taps, axis=1)))
+
+        self._one.run(kernel, len(self.chunks))
+
+    def returned(self, normals: NDArray[np.floating], change: Change) -> Returned:
+        """Take the differences of normals, shape (3, F), change them, and return W* of them.
+
+        W* is the adjoint with respect to the measure, for differences that are not yet divided by k + 1.
+        """
+        slots = np.empty((3, self._n_slots), normals.dtype)
+
+        def use(index: int, apart: NDArray[np.floating]) -> None:
+            chunk = self.chunks[index]
+            change(index, apart)
+            back = slots[:, chunk.place].reshape(3, *chunk.taps.shape)
+            _add_up(apart, back)
+            back *= slots.dtype.type(1.0 / len(chunk.taps) ** 2)
+
+        self.visit(normals, use)
+        return Returned(slots, self._sources, self.measure, self._one)
+
+
+class Returned:
+    """What goes back through the adjoint, still tap by tap."""
+
+    def __init__(
+        self,
+        slots: NDArray[np.floating],
+        sources: list[tuple[NDArray[np.int32], NDArray[np.int32]]],
+        measure: NDArray[np.float64],
+        one: Blocks,
+    ) -> None:
+        self._slots, self._sources, self._measure, self._one = slots, sources, measure, one
+
+    def for_faces(self, use: Callable[[NDArray[np.int32] | slice, NDArray[np.floating]], None]) -> None:
+        """Call `use(faces, values)` for parts of the faces, with values of shape (3, n), on threads."""
+
+        def kernel(index: int, _: int) -> None:
+            faces, places = self._sources[index]
+            total = self._slots.take(places, axis=1).sum(axis=1)
+            part = slice(int(faces[0]), int(faces[-1]) + 1)
+            is_range = part.stop - part.start == len(faces)
+            chosen = part if is_range else faces
+            measure = self._measure[chosen]
+            if (measure != 1.0).any():
+                total /= measure.astype(total.dtype)
+            use(chosen, total)
+
+        self._one.run(kernel, len(self._sources))
+
+
+def _differences(taps: NDArray[np.floating]) -> NDArray[np.floating]:
+    """Return all differences of the taps i < j, shape (3, pairs, n), of taps (3, k + 1, n)."""
+    n_taps = taps.shape[1]
+    apart = np.empty((3, n_taps * (n_taps - 1) // 2, taps.shape[2]), taps.dtype)
+    begin = 0
+    for slot in range(n_taps - 1):
+        end = begin + n_taps - 1 - slot
+        np.subtract(taps[:, slot : slot + 1], taps[:, slot + 1 :], out=apart[:, begin:end])
+        begin = end
+    return apart
+
+
+def _add_up(apart: NDArray[np.floating], taps: NDArray[np.floating]) -> None:
+    """Set taps, shape (3, k + 1, n), to what the transpose of `_differences` gives."""
+    n_taps = taps.shape[1]
+    taps[:, 0] = 0
+    begin = 0
+    for slot in range(n_taps - 1):
+        end = begin + n_taps - 1 - slot
+        part = apart[:, begin:end]
+        if slot:
+            taps[:, slot] += part.sum(axis=1)
+            taps[:, slot + 1 :] -= part
+        else:
+            part.sum(axis=1, out=taps[:, 0])
+            np.negative(part, out=taps[:, 1:])
+        begin = end
