@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
+from ..normals.centroids import face_centroids
 from ..normals.neighbors import Ragged, faces_of_vertices
 from ..normals.noise_sample import area_vectors, normals_of, scrambled, vertex_means
 from ..normals.pilot import unit_columns
-from ..normals.vertex_update import face_centroids
 from ..surface.connectivity import connect
 from ..surface.surface_mesh import SurfaceMesh
 from .patches import trial_part
@@ -41,8 +41,8 @@ UNCERTAINTY = 0.08
 """In units of the variance of the noise: how well risks are known. It is added to them, so that risks that
 are all nearly zero leave the choice to smoothness."""
 
-SMOOTHNESS = 0.5
-"""Power of the roughness that risks are multiplied by."""
+SMOOTHNESS = (0.5, 0.25)
+"""Powers of the two measures of roughness that risks are multiplied by."""
 
 N_PAIRED = 12
 """Recipes, the best ones alone, whose pairs are looked at."""
@@ -85,8 +85,8 @@ def choose_recipes(
     -----
     Stein's estimate of the mean squared error (Ramani, Blu, Unser 2008), for displacements q along the
     normals of the noisy mesh: mean(q^2) - sigma^2 + 2 sigma^2 mean(b dr / eps), where dr is how the result
-    changes when the vertices move by eps b, b = +-1. In units of sigma^2, plus `UNCERTAINTY`, it is times
-    the root of the median difference of adjacent normals, as the error of positions says little about
+    changes when the vertices move by eps b, b = +-1. In units of sigma^2, plus `UNCERTAINTY`, it is multiplied
+    by powers of two measures of roughness (see `_Roughness`), as the error of positions says little about
     roughness, which is what people see. Estimates below zero say that the noise was estimated too strong; all
     are raised by as much.
 
@@ -133,14 +133,14 @@ def choose_recipes(
     rough = _Roughness(problem, counted)
 
     def judge(choices: Sequence[tuple[int, ...]]) -> NDArray[np.float64]:
-        """Return a risk and a roughness for each choice, shape (2, n)."""
+        """Return a risk and two measures of roughness for each choice, shape (3, n)."""
         judged = []
         for choice in choices:
             members = list(choice)
             result = np.mean([results[index] for index in members], axis=0, dtype=noisy.dtype)
             height = np.mean([heights[index] for index in members], axis=0)
             chosen_risk = np.mean(height * height) / sigma**2 - 1.0 + 2.0 * divergence[members].mean()
-            judged.append((chosen_risk, rough.of(result)))
+            judged.append((chosen_risk, *rough.of(result)))
         return np.array(judged).T
 
     singles = [(int(index),) for index in hopeful]
@@ -151,11 +151,13 @@ def choose_recipes(
     return tuple(RECIPES[index] for index in choices[int(np.argmin(scores(*judged)))])
 
 
-def scores(risk: NDArray[np.float64], roughness: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return what is to be small, shape (n,): risks in variances of the noise times a power of roughness."""
-    certain = risk - min(0.0, float(risk.min())) + UNCERTAINTY
-    smallest = max(float(roughness.min()), TINY_ROUGHNESS)
-    return certain * (np.maximum(roughness, smallest) / smallest) ** SMOOTHNESS
+def scores(risk: NDArray[np.float64], *roughness: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return what is to be small, shape (n,): risks in variances of the noise times powers of roughness."""
+    found = risk - min(0.0, float(risk.min())) + UNCERTAINTY
+    for rough, power in zip(roughness, SMOOTHNESS, strict=True):
+        smallest = max(float(rough.min()), TINY_ROUGHNESS)
+        found = found * (np.maximum(rough, smallest) / smallest) ** power
+    return found
 
 
 def _wide_normals(
@@ -171,7 +173,15 @@ def _wide_normals(
 
 
 class _Roughness:
-    """The median of |n_f - n_g| over adjacent faces, those at the counted vertices only."""
+    """How rough a result is, at the counted vertices only.
+
+    Parameters
+    ----------
+    problem : NormalProblem
+        The mesh.
+    counted : ndarray, shape (N,), bool
+        Vertices that count.
+    """
 
     def __init__(self, problem: NormalProblem, counted: NDArray[np.bool_]) -> None:
         surface, neighbors = problem.surface, problem.neighbors
@@ -179,11 +189,29 @@ class _Roughness:
         # The corners of a face are its edges as well, so that `own` goes along with them.
         is_seen = counted[surface.corner_vertex] & (own != neighbors.neighbor)
         self._surface, self._first, self._second = surface, own[is_seen], neighbors.neighbor[is_seen]
+        n_all = np.bincount(own, minlength=surface.n_faces)
+        self._n_seen = np.bincount(self._first, minlength=surface.n_faces)
+        n_counted = np.bincount(own[counted[surface.corner_vertex]], minlength=surface.n_faces)
+        self._inner = np.flatnonzero((self._n_seen > 0) & (n_counted == n_all))
 
-    def of(self, points: NDArray[np.floating]) -> float:
-        """Return the roughness of positions, shape (3, N)."""
-        if not len(self._first):
-            return 0.0
+    def of(self, points: NDArray[np.floating]) -> tuple[float, float]:
+        """Return two measures of the roughness of positions, shape (3, N).
+
+        The lower quartile of |n_f - n_g| over adjacent faces: creases do not count, and flat regions do. The
+        root mean square of |n_f - mean(n_g)|: bends that all neighbors share do not count.
+        """
+        if not len(self._inner):
+            return 0.0, 0.0
         normals = normals_of(points, self._surface)
-        apart = normals[:, self._first] - normals[:, self._second]
-        return float(np.sqrt(np.median(np.einsum("cn,cn->n", apart, apart))))
+        others = normals[:, self._second]
+        apart = normals[:, self._first] - others
+        squares = np.einsum("cn,cn->n", apart, apart)
+        quarter = len(squares) // 4
+        n_faces = normals.shape[1]
+        means = np.stack([np.bincount(self._first, row, minlength=n_faces) for row in others])
+        means = means[:, self._inner] / self._n_seen[self._inner]
+        bent = normals[:, self._inner] - means
+        return (
+            float(np.sqrt(np.partition(squares, quarter)[quarter])),
+            float(np.sqrt(np.mean(np.einsum("cn,cn->n", bent, bent)))),
+        )

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import cached_property
+from functools import cached_property, partial
 from typing import NamedTuple
 
 import numpy as np
@@ -13,17 +13,18 @@ from numpy.typing import NDArray
 
 from ..blocks import Blocks
 from ..denoising.constraints import Constraints
-from ..denoising.progress import rms_motion
-from ..normals.band_shrinkage import shrink_bands
-from ..normals.face_averages import FaceAverages
+from ..memory import give_back
+from ..normals.band_shrinkage import shrink_inside
+from ..normals.centroids import face_centroids
+from ..normals.face_averages import FaceAverages, face_averages
 from ..normals.folds import unfold
 from ..normals.neighbors import edge_neighbors, faces_of_vertices
 from ..normals.noise_sample import area_vectors, noise_in_normals, normals_of, scrambled, vertex_means
 from ..normals.pilot import median_difference, pilot_normals, unit_columns
 from ..normals.vertex_fit import VertexFit
-from ..normals.vertex_update import face_centroids
 from ..surface.connectivity import Connectivity
 from ..surface.surface_mesh import SurfaceMesh
+from ..transform.adaptive_level import Neighbors
 from .recipes import Recipe
 from .smooth_positions import RingAverages, smooth_positions
 
@@ -78,16 +79,20 @@ class NormalProblem:
         sample: NDArray[np.floating] | None = None,
     ) -> None:
         self.noisy, self.surface, self.blocks, self.sigma = noisy, surface, blocks, sigma
-        self.neighbors = edge_neighbors(surface, connectivity)
+        self._connectivity = connectivity
         self.at_vertex = faces_of_vertices(surface)
         if sample is None:
-            sample = unit_noise(scrambled(noisy, surface, self.at_vertex, sigma, 64.0))
+            sample = unit_noise(scrambled(noisy, surface, self.at_vertex, sigma, 64.0, blocks))
         self.sample = sample
         self.fit = VertexFit(surface, self.at_vertex, blocks)
         self.units: dict[int, float] = {}
         """Median differences that the noise makes between neighboring normals, by the averages before."""
-        self._connectivity = connectivity
         self._starts: dict[int, _Start] = {}
+
+    @property
+    def neighbors(self) -> Neighbors:
+        """The faces across edges; made quickly, and large."""
+        return edge_neighbors(self.surface, self._connectivity)
 
     @cached_property
     def averages(self) -> FaceAverages:
@@ -96,20 +101,8 @@ class NormalProblem:
         Distances and areas are those of slightly smoothed positions, since noise makes areas too large.
         """
         points = smooth_positions(self.noisy, self.rings, SLIGHTLY)
-        centroids = face_centroids(points, self.surface)
-        areas = np.sqrt((area_vectors(points, self.surface) ** 2).sum(axis=0))
-        own = np.repeat(np.arange(self.surface.n_faces), np.diff(self.neighbors.offset))
-        apart = centroids[:, self.neighbors.neighbor] - centroids[:, own]
-        distance = np.sqrt((apart * apart).sum(axis=0))
-        spatial_sigma = float(distance[distance > 0].mean()) if distance.any() else 1.0
-        return FaceAverages(
-            self.surface,
-            self.at_vertex,
-            np.ascontiguousarray(centroids.T),
-            areas,
-            spatial_sigma,
-            self.blocks,
-        )
+        areas = np.sqrt((area_vectors(points, self.surface, self.blocks) ** 2).sum(axis=0))
+        return face_averages(points, self.surface, self.at_vertex, self.neighbors, areas, self.blocks)
 
     @cached_property
     def rings(self) -> RingAverages:
@@ -129,13 +122,14 @@ class NormalProblem:
             heights = np.zeros_like(points)
             heights[0] = sample
             sample = smooth_positions(heights, self.rings, n_averages)[0]
-        normals = normals_of(points, self.surface)
+        normals = normals_of(points, self.surface, self.blocks)
         if n_averages not in self.units:
+            neighbors = self.neighbors
             little = self._noise_in_normals(points, TINY_STEP * sample)
             # What a little noise does, scaled up, is too much for strong noise: no angle exceeds a half turn.
             self.units[n_averages] = min(
-                median_difference(little, self.neighbors) / TINY_STEP,
-                median_difference(normals, self.neighbors),
+                median_difference(little, neighbors, self.blocks) / TINY_STEP,
+                median_difference(normals, neighbors, self.blocks),
             )
         return _Start(points, normals, sample, {})
 
@@ -152,12 +146,11 @@ class NormalProblem:
                 lambda: tick(0.0),
                 unit=self.units[recipe.n_averages],
             )
+            give_back(self.surface.n_faces)
         normals = start.pilots[recipe.threshold]
         for range_sigma in recipe.range_sigmas:
-            cleaned = shrink_bands(
-                start.normals,
-                self._noise_in_normals(self.fitted(start.points, normals, PILOT_VERTEX_STEPS), start.sample),
-                normals,
+            cleaned = shrink_inside(
+                partial(self._fields_around, start, normals),
                 self.averages,
                 self.averages.weights(normals, range_sigma),
                 recipe.n_bands,
@@ -166,6 +159,14 @@ class NormalProblem:
             )
             normals = unit_columns(cleaned, start.normals)
         return normals
+
+    def _fields_around(self, start: _Start, normals: NDArray[np.floating]) -> NDArray[np.floating]:
+        """Return noisy normals, a sample of the noise in them on a surface with given normals, and these."""
+        points = self.fitted(start.points, normals, PILOT_VERTEX_STEPS)
+        noise = self._noise_in_normals(points, start.sample)
+        fields = self.averages.inward_rows([*start.normals, *noise, *normals])
+        give_back(self.surface.n_faces)
+        return fields
 
     def _noise_in_normals(
         self, points: NDArray[np.floating], sample: NDArray[np.floating]
@@ -182,17 +183,12 @@ class NormalProblem:
         tick: Tick | None = None,
     ) -> NDArray[np.floating]:
         """Return positions, shape (3, N), whose faces have the wanted normals as far as possible."""
-        steps = self.fit.steps(start, normals)
-        displacement = np.zeros_like(start)
-        for _ in range(n_steps):
-            before, displacement = displacement, steps.advance(displacement)
-            if constraints is not None:
-                points = start + displacement
-                constraints.apply(points, self.noisy)
-                displacement = points - start
+        found = start
+        for points, change in self.fit.steps(start, normals).points(n_steps, constraints, self.noisy):
+            found = points
             if tick is not None:
-                tick(rms_motion(displacement, before, self.blocks))
-        return start + displacement
+                tick(change)
+        return found
 
     def run(
         self,

@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-from itertools import product
 from typing import NamedTuple
 
 from ..normals.pilot import ITERATIONS
@@ -28,26 +27,29 @@ class Recipe(NamedTuple):
     n_averages: int = 0
 
 
-_ON_NORMALS = (
-    Recipe("Flat and sharp", 0.12, (0.4, 0.3), 1.5, 8, 50),
-    Recipe("Smooth and even", 0.12, (0.35, 0.25), 4.0, 7, 50),
-    Recipe("Sharp and coarse", 0.05, (0.5, 0.3), 1.5, 6, 25),
-    Recipe("Round with edges", 0.12, (0.5, 0.5), 1.5, 6, 20),
-    Recipe("Fine relief", 0.12, (1.2, 1.2), 1.5, 4, 8),
-)
+_FLAT = Recipe("Flat and sharp", 0.12, (0.4, 0.3), 1.5, 8, 50)
+_EVEN = Recipe("Smooth and even", 0.12, (0.35, 0.25), 4.0, 7, 50)
+_SHARP = Recipe("Sharp and coarse", 0.05, (0.5, 0.3), 1.5, 6, 25)
+_ROUND = Recipe("Round with edges", 0.12, (0.5, 0.5), 1.5, 6, 20)
+_FINE = Recipe("Fine relief", 0.12, (1.2, 1.2), 1.5, 4, 8)
 
 
-def _after(n_averages: int, recipe: Recipe) -> Recipe:
-    """Return a recipe that works on smoothed positions."""
-    return recipe._replace(label=f"{recipe.label} after smoothing {n_averages}", n_averages=n_averages)
+def _after(n_averages: int, *recipes: Recipe) -> list[Recipe]:
+    """Return recipes that work on smoothed positions."""
+    return [
+        recipe._replace(label=f"{recipe.label} after smoothing {n_averages}", n_averages=n_averages)
+        for recipe in recipes
+    ]
 
 
 RECIPES = (
-    *_ON_NORMALS,
-    *(_after(n_averages, recipe) for n_averages, recipe in product((4, 8, 16), _ON_NORMALS)),
-    *(Recipe(f"Smooth and coarse {k}", n_averages=k) for k in (4, 8, 16, 32, 64, 128)),
+    *(_FLAT, _SHARP, _ROUND, _FINE),
+    *_after(4, _FLAT, _EVEN, _SHARP, _FINE),
+    *_after(8, _EVEN, _FINE),
+    *_after(16, _EVEN, _FINE),
+    *(Recipe(f"Smooth and coarse {k}", n_averages=k) for k in (8, 32, 64, 128)),
 )
-"""From machine parts to organic shapes, and from weak to strong noise."""
+"""For weak to strong noise and, within each of these groups, from machine parts to organic shapes."""
 
 
 def n_ticks(recipe: Recipe) -> int:

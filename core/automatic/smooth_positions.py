@@ -9,6 +9,7 @@ by shape as by noise, and positions, which are one number less differentiated, s
 from __future__ import annotations
 
 from functools import cache
+from typing import Any
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -119,7 +120,7 @@ def smooth_positions(
 def _series(n_averages: int, eps: float) -> list[float]:
     """Return the Chebyshev coefficients of g(p), with which the filter is x + g(P) (P x - x)."""
 
-    def g(p: NDArray[np.float64]) -> NDArray[np.float64]:
+    def g(p: Any) -> Any:
         powers = (0.5 * (1.0 + p)) ** np.arange(n_averages + 1)[:, None]
         return 0.5 * (1.0 - powers[-1]) ** (ORDER - 1) * powers[:-1].sum(axis=0)
 

@@ -113,12 +113,22 @@ class _Shrinkage:
 
     def __call__(self, index: int, high: Chunk) -> None:
         """Replace the high bands of one chunk, in place; a `Visit`."""
+        free = self._unpenalized[index]
+        begin, end, _ = free.indices(high.shape[1])
+        parts = (slice(0, begin), slice(end, None))  # bands that are shrunk; b is kept for them only
+        kept = (slice(0, begin), slice(begin, None))
         residual = self._residual[index]
         if residual is not None:
-            high += residual
+            for part, own in zip(parts, kept, strict=True):
+                high[:, part] += residual[:, own]
         cut = clipped(high, self._threshold, self._kind, self._groups[index])
-        cut[:, self._unpenalized[index]] = 0
-        self._residual[index] = cut
+        cut[:, free] = 0
         np.multiply(cut, high.dtype.type(-2), out=high)
-        if residual is not None:
-            high += residual
+        if residual is None:
+            shape = (3, high.shape[1] - (end - begin), high.shape[2])
+            residual = self._residual[index] = np.empty(shape, high.dtype)
+        else:
+            for part, own in zip(parts, kept, strict=True):
+                high[:, part] += residual[:, own]
+        for part, own in zip(parts, kept, strict=True):
+            residual[:, own] = cut[:, part]

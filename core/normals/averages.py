@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from ..blocks import Blocks
+from .parts import empty_parts, in_one_array
 
 TILE = 8
 """Items in a tile: one for each bit of a byte."""
@@ -116,12 +117,15 @@ class Averages:
             return list(_chunks(found, sizes, by_size, start))
 
         made = blocks.sized(TILES_IN_BLOCK).run(make, n_tiles)
-        self._chunks = [chunk for part in made for chunk in part]
         self._items = items.ravel()
         self._place = np.empty(n_items, np.int32)
         self._place[self._items] = np.arange(len(self._items), dtype=np.int32)
-        for chunk in self._chunks:
-            chunk.members[...] = self._place.take(chunk.members)
+        chunks = [chunk for part in made for chunk in part]
+        members = in_one_array([chunk.members for chunk in chunks], np.int32)
+        bits = in_one_array([chunk.bits for chunk in chunks], np.uint8)
+        self._chunks = list(map(Chunk, (chunk.begin for chunk in chunks), members, bits))
+        for part in members:
+            part[...] = self._place.take(part)
 
     def inward(self, field: NDArray) -> NDArray:
         """Return a field, shape (n, ...), as it is numbered inside; an item or two are there repeatedly."""
@@ -150,16 +154,8 @@ class Averages:
         self, fill: Callable[[Chunk, NDArray[np.floating]], None], dtype: DTypeLike = np.float64
     ) -> Weights:
         """Return weights: `fill(chunk, weights)` sets those of a chunk, on threads."""
-        sizes = [TILE * chunk.members.size for chunk in self._chunks]
-        # One array for all, as memory of many small ones would not go back to the system.
-        everything = np.empty(sum(sizes), dtype)
-        ends = np.cumsum(sizes, dtype=np.int64)
-        weights = [
-            everything[end - size : end].reshape(len(chunk.members), TILE, -1)
-            if size
-            else np.zeros((len(chunk.members), TILE, 0), dtype)
-            for chunk, size, end in zip(self._chunks, sizes, ends.tolist(), strict=True)
-        ]
+        shapes = [(len(chunk.members), TILE, chunk.members.shape[1]) for chunk in self._chunks]
+        weights = empty_parts(shapes, dtype)
 
         def kernel(start: int, stop: int) -> None:
             for chunk, part in zip(self._chunks[start:stop], weights[start:stop], strict=True):

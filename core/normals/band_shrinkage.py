@@ -12,6 +12,8 @@ triangle and every weight.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -66,100 +68,94 @@ def shrink_bands(
     noise. Squares make it steeper than Wiener's E / (E + N): bands of pure noise, where E is what the pilot
     left of it, come closer to 0.
     """
-    rows = (row for field in (noisy, noise, pilot) for row in field)
-    fields = averages.inward_rows(list(rows))
-    shrunk = _Shrunk(averages, weights, fields, caution)
-    for band in range(n_bands):
-        before = fields
-        for _ in range(1 if band == 0 else 2 ** (band - 1)):
-            fields = shrunk.average(fields)
-        fields = shrunk.take_band(before, fields, min(WIDEST, max(2, 2**band)))
-        tick()
-    return averages.outward(shrunk.finish(fields)).T
+    rows = [row for field in (noisy, noise, pilot) for row in field]
+    return shrink_inside(lambda: averages.inward_rows(rows), averages, weights, n_bands, caution, tick)
 
 
 _N = 9  # columns of the three fields
 
 
-class _Shrunk:
-    """The sum of shrunk bands. Local energies of a band are smoothed while the next one is made.
+def shrink_inside(
+    make_fields: Callable[[], NDArray[np.floating]],
+    averages: Averages,
+    weights: Weights,
+    n_bands: int,
+    caution: float,
+    tick: Tick = lambda: None,
+) -> NDArray[np.floating]:
+    """Return what `shrink_bands` returns for its three fields, shape (n, 9), numbered as inside `averages`.
 
-    They are columns behind those of the fields, two for each band that waits: to average them along with the
-    fields costs hardly more than the fields alone.
+    They are handed over by a function, so that their memory is free after the first band.
+    Local energies of a band are smoothed while the next one is made, as two columns behind the fields: it
+    costs hardly more to average them along than the fields alone.
     """
-
-    def __init__(
-        self, averages: Averages, weights: Weights, fields: NDArray[np.floating], caution: float
-    ) -> None:
-        self._averages, self._weights = averages, weights
-        self._caution = fields.dtype.type(caution)
-        self._tiny = np.finfo(fields.dtype).tiny
-        self._result = np.zeros((len(fields), 3), fields.dtype)
-        self._waiting: list[_Band] = []  # those with fewer averages to come are first
-
-    def average(self, fields: NDArray[np.floating]) -> NDArray[np.floating]:
-        """Return the next fields and energies; what is smooth enough then is shrunk and added."""
-        fields = self._averages.average(self._weights, fields)
-        for band in self._waiting:
-            band.steps -= 1
-        while self._waiting and not self._waiting[0].steps:
-            self._add(self._waiting.pop(0), fields)
-        return fields
-
-    def take_band(
-        self, before: NDArray[np.floating], after: NDArray[np.floating], steps: int
-    ) -> NDArray[np.floating]:
-        """Let the band `before` - `after` wait, and return the fields and all energies that wait."""
-        high = np.empty((len(after), 3), after.dtype)
-        kept = [column for band in self._waiting for column in (band.column, band.column + 1)]
-        fields = np.empty((len(after), _N + len(kept) + 2), after.dtype)
-
-        def split(start: int, stop: int) -> None:
-            part = fields[start:stop]
-            part[:, :_N] = after[start:stop, :_N]
-            for to, column in enumerate(kept, _N):
-                part[:, to] = after[start:stop, column]
-            band = before[start:stop, :_N] - part[:, :_N]
-            high[start:stop] = band[:, :3]
-            band *= band
-            for to, begin in ((-2, 3), (-1, 6)):
-                np.add(band[:, begin], band[:, begin + 1], out=part[:, to])
-                part[:, to] += band[:, begin + 2]
-
-        self._averages.for_items(split)
-        self._waiting.append(_Band(steps, high))
-        for index, waiting in enumerate(self._waiting):
-            waiting.column = _N + 2 * index
-        return fields
-
-    def finish(self, fields: NDArray[np.floating]) -> NDArray[np.floating]:
-        """Return the sum of all bands and of the last low-pass, shape (n, 3)."""
-        low, energies = fields[:, :3], np.ascontiguousarray(fields[:, _N:])
-        for band in self._waiting:
-            band.column -= _N
-        while self._waiting:
-            energies = self.average(energies)
-        self._result += low
-        return self._result
-
-    def _add(self, band: _Band, fields: NDArray[np.floating]) -> None:
-        """Shrink a band by its energies, and add it."""
-
-        def add(start: int, stop: int) -> None:
-            part = slice(start, stop)
-            signal = np.square(fields[part, band.column + 1])
-            spoiled = fields[part, band.column] * self._caution
-            spoiled *= spoiled
-            spoiled += signal
-            gain = np.divide(signal, spoiled, out=np.ones_like(signal), where=spoiled > self._tiny)
-            for column in range(3):
-                self._result[part, column] += gain * band.high[part, column]
-
-        self._averages.for_items(add)
+    fields = make_fields()
+    result = np.zeros((len(fields), 3), fields.dtype)
+    waiting: NDArray[np.floating] | None = None  # the high band whose energies are being smoothed
+    to_come = 0
+    for band in range(n_bands):
+        before = fields
+        for _ in range(1 if band == 0 else 2 ** (band - 1)):
+            fields = averages.average(weights, fields)
+            to_come -= 1
+            if waiting is not None and not to_come:
+                _add_shrunk(result, waiting, fields[:, _N:], caution, averages)
+                waiting = None
+        to_come = min(WIDEST, max(2, 2**band))
+        high, fields = _split(before, fields, averages)
+        del before
+        if band + 1 < n_bands and to_come <= 2**band:
+            waiting = high
+        else:
+            energies = np.ascontiguousarray(fields[:, _N:])
+            for _ in range(to_come):
+                energies = averages.average(weights, energies)
+            _add_shrunk(result, high, energies, caution, averages)
+            fields = np.ascontiguousarray(fields[:, :_N])
+        tick()
+    result += fields[:, :3]
+    return averages.outward(result).T
 
 
-class _Band:
-    """A band that waits for its energies: averages to come, its high-pass (n, 3), and where they are."""
+def _split(
+    before: NDArray[np.floating], after: NDArray[np.floating], averages: Averages
+) -> tuple[NDArray[np.floating], NDArray[np.floating]]:
+    """Return the band `before` - `after` of the first field, and `after` with the energies of the others."""
+    high = np.empty((len(after), 3), after.dtype)
+    fields = np.empty((len(after), _N + 2), after.dtype)
 
-    def __init__(self, steps: int, high: NDArray[np.floating]) -> None:
-        self.steps, self.high, self.column = steps, high, 0
+    def kernel(start: int, stop: int) -> None:
+        part = fields[start:stop]
+        part[:, :_N] = after[start:stop, :_N]
+        band = before[start:stop, :_N] - part[:, :_N]
+        high[start:stop] = band[:, :3]
+        band *= band
+        for to, begin in ((_N, 3), (_N + 1, 6)):
+            np.add(band[:, begin], band[:, begin + 1], out=part[:, to])
+            part[:, to] += band[:, begin + 2]
+
+    averages.for_items(kernel)
+    return high, fields
+
+
+def _add_shrunk(
+    result: NDArray[np.floating],
+    high: NDArray[np.floating],
+    energies: NDArray[np.floating],
+    caution: float,
+    averages: Averages,
+) -> None:
+    """Shrink a band by energies of the noise and of the pilot, and add it."""
+    factor, tiny = high.dtype.type(caution), np.finfo(high.dtype).tiny
+
+    def kernel(start: int, stop: int) -> None:
+        part = slice(start, stop)
+        signal = np.square(energies[part, 1])
+        spoiled = energies[part, 0] * factor
+        spoiled *= spoiled
+        spoiled += signal
+        gain = np.divide(signal, spoiled, out=np.ones_like(signal), where=spoiled > tiny)
+        for column in range(3):
+            result[part, column] += gain * high[part, column]
+
+    averages.for_items(kernel)

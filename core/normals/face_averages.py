@@ -12,8 +12,11 @@ from numpy.typing import NDArray
 from ..blocks import Blocks
 from ..surface.locality import spatial_order
 from ..surface.surface_mesh import SurfaceMesh
+from ..transform.adaptive_level import Neighbors
 from .averages import TILE, Averages, Chunk, Members, Weights, united
+from .centroids import face_centroids
 from .neighbors import Ragged, members_around
+from .pilot import Tick, neighbor_distances, unit_columns
 
 _SAMPLE = 512
 """Tiles that are looked at to choose an order."""
@@ -84,6 +87,47 @@ class FaceAverages(Averages):
                 weights[lost] = itself[lost]
 
         return self.for_chunks(weigh, guide.dtype)
+
+    def smooth(
+        self, noisy: NDArray[np.floating], weights: Weights, steps: int, tick: Tick = lambda: None
+    ) -> NDArray[np.floating]:
+        """Average unit normals, shape (3, F), so many times, and return unit normals.
+
+        A face whose average has no direction keeps its normal.
+        """
+        normals = self.inward_rows(list(noisy))
+        for _ in range(steps):
+            following = self.average(weights, normals)
+
+            def shorten(
+                start: int,
+                stop: int,
+                normals: NDArray[np.floating] = normals,
+                following: NDArray[np.floating] = following,
+            ) -> None:
+                part = following[start:stop]
+                part[...] = unit_columns(part.T, normals[start:stop].T).T
+
+            self.for_items(shorten)
+            normals = following
+            tick()
+        return np.ascontiguousarray(self.outward(normals).T)
+
+
+def face_averages(
+    points: NDArray[np.floating],
+    surface: SurfaceMesh,
+    at_vertex: Ragged,
+    neighbors: Neighbors,
+    areas: NDArray[np.floating],
+    blocks: Blocks,
+) -> FaceAverages:
+    """Return averages for faces at positions (3, N): spatial weights are as wide as neighbors are apart."""
+    centroids = face_centroids(points, surface)
+    distance = neighbor_distances(centroids, neighbors, blocks)
+    distance = distance[distance > 0]
+    spatial_sigma = float(distance.mean()) if len(distance) else 1.0
+    return FaceAverages(surface, at_vertex, np.ascontiguousarray(centroids.T), areas, spatial_sigma, blocks)
 
 
 def _compact_order(

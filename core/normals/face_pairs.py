@@ -10,6 +10,7 @@ respect to the measure that the equal weights pull back to the faces.
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +18,7 @@ from numpy.typing import NDArray
 from ..blocks import Blocks
 from ..surface.locality import stable_order
 from ..transform.adaptive_level import Neighbors
+from .parts import empty_parts, in_one_array
 
 TAPS_AT_ONCE = 2**15
 """Taps that a chunk may hold, so that its arrays stay in the cache at any number of edges."""
@@ -27,14 +29,11 @@ Change = Callable[[int, NDArray[np.floating]], None]
 """`change(index, apart)` replaces the differences n_i - n_j of a chunk, shape (3, pairs, n), in place."""
 
 
-class _Chunk:
+class _Chunk(NamedTuple):
     """Faces with as many neighbors: their taps, shape (k + 1, n), and where these stand among all taps."""
 
-    def __init__(self, faces: NDArray[np.int32], neighbors: Neighbors, count: int, begin: int) -> None:
-        self.taps = np.empty((count + 1, len(faces)), np.int32)
-        self.taps[0] = faces
-        self.taps[1:] = neighbors.neighbor[neighbors.offset[faces] + np.arange(count)[:, None]]
-        self.place = slice(begin, begin + self.taps.size)
+    taps: NDArray[np.int32]
+    place: slice
 
 
 class FacePairs:
@@ -52,31 +51,37 @@ class FacePairs:
         self._one, self._blocks = blocks.sized(1), blocks.sized(FACES_AT_ONCE)
         counts = np.diff(neighbors.offset)
         self.n_faces = len(counts)
-        self.chunks: list[_Chunk] = []
-        begin = 0
+        groups = []
         for count in np.unique(counts):
             group = np.flatnonzero(counts == count).astype(np.int32)
             size = max(1, TAPS_AT_ONCE // (int(count) + 1))
-            for part in np.split(group, range(size, len(group), size)):
-                self.chunks.append(_Chunk(part, neighbors, int(count), begin))
-                begin += (int(count) + 1) * len(part)
-        self._n_slots = begin
+            groups += [(int(count), part) for part in np.split(group, range(size, len(group), size))]
+        taps = empty_parts([(count + 1, len(part)) for count, part in groups], np.int32)
+        self.chunks: list[_Chunk] = []
+        self._n_slots = 0
+        for (count, part), own in zip(groups, taps, strict=True):
+            own[0] = part
+            own[1:] = neighbors.neighbor[neighbors.offset[part] + np.arange(count)[:, None]]
+            self.chunks.append(_Chunk(own, slice(self._n_slots, self._n_slots + own.size)))
+            self._n_slots += own.size
         self._set_sources()
 
     def _set_sources(self) -> None:
         """Find where each face stands among all taps, and the measure."""
         taps = np.concatenate([chunk.taps.ravel() for chunk in self.chunks])
         weights = np.concatenate([np.full(c.taps.size, 1.0 / len(c.taps)) for c in self.chunks])
-        self.measure = np.bincount(taps, weights, self.n_faces)
+        self.measure = np.bincount(taps, weights, self.n_faces).astype(np.float64)
         order = stable_order(taps, self.n_faces)
         counts = np.bincount(taps, minlength=self.n_faces)
         begin = np.cumsum(counts) - counts
-        self._sources: list[tuple[NDArray[np.int32], NDArray[np.int32]]] = []
+        sources = []
         for count in np.unique(counts):
             group = np.flatnonzero(counts == count).astype(np.int32)
             size = max(1, TAPS_AT_ONCE // int(count))
             for part in np.split(group, range(size, len(group), size)):
-                self._sources.append((part, order[begin[part] + np.arange(count)[:, None]]))
+                sources.append((part, order[begin[part] + np.arange(count)[:, None]]))
+        places = in_one_array([places for _, places in sources], np.int32)
+        self._sources = list(zip((part for part, _ in sources), places, strict=True))
 
     def visit(self, normals: NDArray[np.floating], use: Change) -> None:
         """Call a function with the differences n_i - n_j of each chunk, on threads."""

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from ..blocks import Blocks
 from .neighbors import Ragged
+from .parts import in_one_array
 
 ITEMS_IN_BLOCK = 2**16
 """Items that are sorted by the sizes of their neighborhoods together."""
@@ -68,12 +69,14 @@ class Means:
             return chunks
 
         made = blocks.sized(ITEMS_IN_BLOCK).run(make, n_items)
-        self._chunks = [chunk for part in made for chunk in part]
+        chunks = [chunk for part in made for chunk in part]
+        members = in_one_array([chunk.members for chunk in chunks], np.int32)
+        self._chunks = list(map(_Chunk, (chunk.begin for chunk in chunks), members))
         self._place = np.empty(n_items, np.int32)
         self._place[self._items] = np.arange(n_items, dtype=np.int32)
         if is_square:
-            for chunk in self._chunks:
-                chunk.members[...] = self._place.take(chunk.members)
+            for part in members:
+                part[...] = self._place.take(part)
 
     @property
     def place(self) -> NDArray[np.int32]:

@@ -28,7 +28,7 @@ def edge_neighbors(surface: SurfaceMesh, connectivity: Connectivity) -> Neighbor
     own = np.repeat(np.arange(surface.n_faces, dtype=np.int32), sizes)
     across = np.where(connectivity.face_across >= 0, connectivity.face_across, own)
     nothing = np.zeros(surface.n_faces, bool)
-    return Neighbors(surface.face_offset.astype(np.int64), across, nothing, nothing)
+    return Neighbors(surface.face_offset, across, nothing, nothing)
 
 
 def faces_of_vertices(surface: SurfaceMesh) -> Ragged:
@@ -37,24 +37,6 @@ def faces_of_vertices(surface: SurfaceMesh) -> Ragged:
     own = np.repeat(np.arange(surface.n_faces, dtype=np.int32), surface.face_sizes())
     counts = np.bincount(surface.corner_vertex, minlength=surface.n_vertices)
     return Ragged(np.concatenate(([0], np.cumsum(counts))), own[order])
-
-
-def faces_around(surface: SurfaceMesh, at_vertex: Ragged, start: int, stop: int) -> Ragged:
-    """Return the faces that share a vertex with each face of a range, the face itself included, ascending."""
-    begin, end = surface.face_offset[start], surface.face_offset[stop]
-    vertex = surface.corner_vertex[begin:end]
-    counts = at_vertex.offset[vertex + 1] - at_vertex.offset[vertex]
-    place = np.arange(counts.sum()) + np.repeat(
-        at_vertex.offset[vertex] - (np.cumsum(counts) - counts), counts
-    )
-    row = np.repeat(np.repeat(np.arange(stop - start), surface.face_sizes()[start:stop]), counts)
-    keys = row * surface.n_faces + at_vertex.items[place]
-    keys.sort()
-    is_first = np.ones(len(keys), bool)
-    np.not_equal(keys[1:], keys[:-1], out=is_first[1:])
-    row, face = np.divmod(keys[is_first], max(surface.n_faces, 1))
-    found = np.bincount(row, minlength=stop - start)
-    return Ragged(np.concatenate(([0], np.cumsum(found))), face.astype(np.int32))
 
 
 MOST_FACES = 64

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ..blocks import Blocks
 from ..transform.adaptive_level import Neighbors
 from .face_pairs import FacePairs
+from .parts import empty_parts
 
 COUPLING = 10.0
 """Penalty mu; far larger than 1, so that a step changes directions little and normalizing is harmless."""
@@ -70,7 +71,7 @@ def pilot_normals(
     n + W*(b - 2 b'), in which only differences count: the low-pass is neither made nor sent back.
     """
     pairs = FacePairs(neighbors, blocks)
-    scale = median_difference(noisy, neighbors) if unit is None else unit
+    scale = median_difference(noisy, neighbors, blocks) if unit is None else unit
     shrink = _Reweighted(pairs, threshold * scale, sharpness, noisy.dtype)
     mu = noisy.dtype.type(COUPLING)
     normals = noisy
@@ -106,13 +107,16 @@ class _Reweighted:
         self._thresholds = [dtype.type(threshold * len(chunk.taps)) for chunk in pairs.chunks]
         self._sharpness = dtype.type(max(sharpness, float(np.finfo(dtype).tiny)))
         self._smallest = np.finfo(dtype).tiny
-        self._residual: list[NDArray[np.floating] | None] = [None] * len(pairs.chunks)
+        # Of k + 1 taps there are k (k + 1) / 2 pairs.
+        shapes = [(3, len(taps) * (len(taps) - 1) // 2, taps.shape[1]) for taps, _ in pairs.chunks]
+        self._residual = empty_parts(shapes, dtype)
+        self._is_started = [False] * len(pairs.chunks)
         self._factor: list[NDArray[np.floating] | None] = [None] * len(pairs.chunks)
 
     def __call__(self, index: int, apart: NDArray[np.floating]) -> None:
         """Shrink a chunk in place; a `Change`."""
-        residual = self._residual[index]
-        if residual is not None:
+        residual, is_started = self._residual[index], self._is_started[index]
+        if is_started:
             apart += residual
         norm = _lengths(apart)
         factor = self._factor[index]
@@ -120,19 +124,24 @@ class _Reweighted:
         np.maximum(norm, np.maximum(limit, self._smallest), out=norm)
         np.divide(limit, norm, out=norm)
         apart *= norm
-        self._residual[index] = apart.copy()
-        apart *= -2
-        if residual is not None:
-            apart += residual
+        if is_started:
+            back = residual - apart
+            back -= apart
+            residual[...] = apart
+            apart[...] = back
+        else:
+            residual[...] = apart
+            apart *= -2
+        self._is_started[index] = True
 
     def reweigh(self, index: int, apart: NDArray[np.floating]) -> None:
         """Set the factors of a chunk from its differences, and start afresh; a `Change`."""
         self._factor[index] = self._sharpness / (_lengths(apart) + self._sharpness)
-        self._residual[index] = None
+        self._is_started[index] = False
 
 
 def _lengths(vectors: NDArray[np.floating]) -> NDArray[np.floating]:
-    """Return lengths, shape (H, n), of vectors (3, H, n)."""
+    """Return lengths, shape (...), of vectors (3, ...)."""
     squares = vectors[0] * vectors[0]
     squares += vectors[1] * vectors[1]
     squares += vectors[2] * vectors[2]
@@ -146,12 +155,26 @@ def unit_columns(vectors: NDArray[np.floating], fallback: NDArray[np.floating]) 
     return np.where(good, vectors / np.where(good, length, 1), fallback)
 
 
-def median_difference(normals: NDArray[np.floating], neighbors: Neighbors) -> float:
+def median_difference(
+    normals: NDArray[np.floating], neighbors: Neighbors, blocks: Blocks | None = None
+) -> float:
     """Return the median of |n_f - n_g| over neighboring faces, 0.0 if no face has a neighbor."""
-    counts = np.diff(neighbors.offset)
-    own = np.repeat(np.arange(len(counts)), counts)
-    apart = own < neighbors.neighbor  # every pair once, and no face with itself
-    if not apart.any():
-        return 0.0
-    difference = normals[:, own[apart]] - normals[:, neighbors.neighbor[apart]]
-    return float(np.median(np.sqrt((difference * difference).sum(axis=0))))
+    apart = neighbor_distances(normals, neighbors, blocks)
+    return float(np.median(apart)) if len(apart) else 0.0
+
+
+def neighbor_distances(
+    values: NDArray[np.floating], neighbors: Neighbors, blocks: Blocks | None = None
+) -> NDArray[np.floating]:
+    """Return |v_f - v_g| of all neighboring faces f < g, shape (n,), for values of shape (3, F)."""
+    offset = neighbors.offset
+
+    def kernel(start: int, stop: int) -> NDArray[np.floating]:
+        own = np.repeat(np.arange(start, stop, dtype=np.int32), np.diff(offset[start : stop + 1]))
+        other = neighbors.neighbor[offset[start] : offset[stop]]
+        once = np.flatnonzero(own < other)  # every pair once, and no face with itself
+        apart = values.take(own[once], axis=1)
+        apart -= values.take(other[once], axis=1)
+        return _lengths(apart)
+
+    return np.concatenate((blocks or Blocks(1)).run(kernel, len(offset) - 1))

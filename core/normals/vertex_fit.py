@@ -4,21 +4,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
+from ..denoising.constraints import Constraints
+from ..denoising.progress import rms_motion
 from ..surface.surface_mesh import SurfaceMesh
 from .means import Means, padded
 from .neighbors import Ragged
 
 
 class VertexFit:
-    """The steps of `vertex_update.update_vertices`, for the displacement instead of the position.
+    """In a step each face pulls its vertices towards the plane through its centroid with the wanted normal.
 
-    With the mean over the faces f at a vertex, a step is u <- u + r + mean(n_f <n_f, c_f(u)>) - Q u: r is the
-    step at the start, c_f(u) the mean displacement of the corners, and Q = mean(n_f n_f'). All of them are
-    small, so that single precision loses nothing, and each face is looked at once.
+    A vertex v moves by the mean over its faces f of n_f <n_f, c_f - v>, with centroids c_f. For the
+    displacement u that is u <- u + r + mean(n_f <n_f, c_f(u)>) - Q u: r is the step at the start, c_f(u) the
+    mean displacement of the corners, and Q = mean(n_f n_f'). All of them are small, so that single precision
+    loses nothing, and each face is looked at once. Loose vertices stay.
 
     Parameters
     ----------
@@ -67,7 +72,7 @@ class VertexSteps:
     """A fit that is under way."""
 
     def __init__(self, fit: VertexFit, start: NDArray[np.floating], normals: NDArray[np.floating]) -> None:
-        self._fit, self._normals = fit, np.ascontiguousarray(normals)
+        self._fit, self._start, self._normals = fit, start, np.ascontiguousarray(normals)
         dtype, n_vertices = start.dtype, start.shape[1]
         self._first = np.zeros((n_vertices, 4), dtype)  # r
         self._outer = np.zeros((6, n_vertices), dtype)  # the entries of Q that differ
@@ -97,6 +102,26 @@ class VertexSteps:
                 self._outer[entry, part] = (normal[i] * normal[j]).sum(axis=0) * share
 
         fit.faces.for_parts(begin)
+
+    def points(
+        self,
+        n_steps: int,
+        constraints: Constraints | None = None,
+        origin: NDArray[np.floating] | None = None,
+    ) -> Iterator[tuple[NDArray[np.floating], float]]:
+        """Yield positions, shape (3, N), and the rms motion of the vertices, after each step.
+
+        Constraints hold vertices at `origin`, shape (3, N), which is by default where the fit started.
+        """
+        origin = self._start if origin is None else origin
+        displacement = np.zeros_like(self._start)
+        for _ in range(n_steps):
+            before, displacement = displacement, self.advance(displacement)
+            points = self._start + displacement
+            if constraints is not None:
+                constraints.apply(points, origin)
+                displacement = points - self._start
+            yield points, rms_motion(displacement, before, self._fit.blocks)
 
     def advance(self, displacement: NDArray[np.floating]) -> NDArray[np.floating]:
         """Return the displacement, shape (3, N), after another step."""

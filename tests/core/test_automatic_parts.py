@@ -15,8 +15,6 @@ from framelet.core.normals.means import Means
 from framelet.core.normals.neighbors import Ragged, faces_of_vertices, members_around
 from framelet.core.normals.noise_sample import area_vectors, noise_in_normals, scrambled, vertex_means
 from framelet.core.normals.pilot import unit_columns
-from framelet.core.normals.vertex_fit import VertexFit
-from framelet.core.normals.vertex_update import update_vertices
 from framelet.core.surface.geometry import face_area_vectors
 from meshes import MESHES, faces_of, noisy, soup, triangle_torus
 from twins import faces_touching, newell
@@ -224,17 +222,3 @@ def test_noise_in_normals_is_linear_for_small_noise(rng):
     one, two = (noise_in_normals(mesh.vertices.T, k * amount, mesh, at_vertex, ALONE) for k in (1, 2))
     assert np.abs(two - 2 * one).max() < 1e-9 < np.abs(one).max()
     assert not noise_in_normals(mesh.vertices.T, 0 * amount, mesh, at_vertex, ALONE).any()
-
-
-@KIND
-@BLOCKS
-def test_steps_of_fitting_are_vertex_updates(kind, blocks, rng):
-    mesh = noisy(KINDS[kind](), rng)
-    at_vertex, points = faces_of_vertices(mesh), mesh.vertices.T
-    normals = unit_columns(rng.normal(size=(3, mesh.n_faces)), np.zeros((3, mesh.n_faces)))
-    steps, displacement = VertexFit(mesh, at_vertex, blocks).steps(points, normals), np.zeros_like(points)
-    expected = points
-    for _ in range(5):
-        displacement = steps.advance(displacement)
-        expected = update_vertices(expected, normals, mesh, at_vertex, ALONE)
-    assert np.abs(points + displacement - expected).max() < 1e-10
