@@ -27,7 +27,7 @@ class Recipe(NamedTuple):
     n_averages: int = 0
 
 
-_FLAT = Recipe("Flat and sharp", 0.12, (0.4, 0.3), 1.5, 8, 50)
+_FLAT = Recipe("Flat and sharp", 0.12, (0.4, 0.3), 1.5, 7, 50)
 _EVEN = Recipe("Smooth and even", 0.12, (0.35, 0.25), 4.0, 7, 50)
 _SHARP = Recipe("Sharp and coarse", 0.05, (0.5, 0.3), 1.5, 6, 25)
 _ROUND = Recipe("Round with edges", 0.12, (0.5, 0.5), 1.5, 6, 20)
