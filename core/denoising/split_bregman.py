@@ -115,20 +115,25 @@ class _Shrinkage:
         """Replace the high bands of one chunk, in place; a `Visit`."""
         free = self._unpenalized[index]
         begin, end, _ = free.indices(high.shape[1])
-        parts = (slice(0, begin), slice(end, None))  # bands that are shrunk; b is kept for them only
-        kept = (slice(0, begin), slice(begin, None))
+        # b is kept for the bands that are shrunk only: (bands, where their b is).
+        shrunk = [(slice(0, begin), slice(0, begin)), (slice(end, None), slice(begin, None))]
+        if begin == end:
+            shrunk = [(slice(None), slice(None))]
         residual = self._residual[index]
         if residual is not None:
-            for part, own in zip(parts, kept, strict=True):
-                high[:, part] += residual[:, own]
+            for bands, own in shrunk:
+                high[:, bands] += residual[:, own]
         cut = clipped(high, self._threshold, self._kind, self._groups[index])
         cut[:, free] = 0
         np.multiply(cut, high.dtype.type(-2), out=high)
+        if residual is not None:
+            for bands, own in shrunk:
+                high[:, bands] += residual[:, own]
+        if begin == end:
+            self._residual[index] = cut
+            return
         if residual is None:
             shape = (3, high.shape[1] - (end - begin), high.shape[2])
             residual = self._residual[index] = np.empty(shape, high.dtype)
-        else:
-            for part, own in zip(parts, kept, strict=True):
-                high[:, part] += residual[:, own]
-        for part, own in zip(parts, kept, strict=True):
-            residual[:, own] = cut[:, part]
+        for bands, own in shrunk:
+            residual[:, own] = cut[:, bands]

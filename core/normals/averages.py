@@ -24,13 +24,13 @@ from .parts import empty_parts, in_one_array
 TILE = 8
 """Items in a tile: one for each bit of a byte."""
 
-TILES_IN_BLOCK = 2048
+TILES_IN_BLOCK = 8192
 """Tiles that are made together and sorted by the number of their members."""
 
 MEMBERS_AT_ONCE = 2**14
 """Members that a chunk may look up, so that their values stay in the cache."""
 
-CHUNKS_AT_ONCE = 4
+CHUNKS_AT_ONCE = 8
 """Chunks in a piece of work for a thread."""
 
 ITEMS_AT_ONCE = 2**14

@@ -23,7 +23,8 @@ from .parts import empty_parts, in_one_array
 TAPS_AT_ONCE = 2**15
 """Taps that a chunk may hold, so that its arrays stay in the cache at any number of edges."""
 
-FACES_AT_ONCE = 2**14
+CHUNKS_AT_ONCE = 4
+"""Chunks in a piece of work for a thread."""
 
 Change = Callable[[int, NDArray[np.floating]], None]
 """`change(index, apart)` replaces the differences n_i - n_j of a chunk, shape (3, pairs, n), in place."""
@@ -48,7 +49,7 @@ class FacePairs:
     """
 
     def __init__(self, neighbors: Neighbors, blocks: Blocks) -> None:
-        self._one, self._blocks = blocks.sized(1), blocks.sized(FACES_AT_ONCE)
+        self._blocks = blocks.sized(CHUNKS_AT_ONCE)
         counts = np.diff(neighbors.offset)
         self.n_faces = len(counts)
         groups = []
@@ -86,10 +87,11 @@ class FacePairs:
     def visit(self, normals: NDArray[np.floating], use: Change) -> None:
         """Call a function with the differences n_i - n_j of each chunk, on threads."""
 
-        def kernel(index: int, _: int) -> None:
-            use(index, _differences(normals.take(self.chunks[index].taps, axis=1)))
+        def kernel(start: int, stop: int) -> None:
+            for index in range(start, stop):
+                use(index, _differences(normals.take(self.chunks[index].taps, axis=1)))
 
-        self._one.run(kernel, len(self.chunks))
+        self._blocks.run(kernel, len(self.chunks))
 
     def returned(self, normals: NDArray[np.floating], change: Change) -> Returned:
         """Take the differences of normals, shape (3, F), change them, and return W* of them.
@@ -106,7 +108,7 @@ class FacePairs:
             back *= slots.dtype.type(1.0 / len(chunk.taps) ** 2)
 
         self.visit(normals, use)
-        return Returned(slots, self._sources, self.measure, self._one)
+        return Returned(slots, self._sources, self.measure, self._blocks)
 
 
 class Returned:
@@ -117,25 +119,24 @@ class Returned:
         slots: NDArray[np.floating],
         sources: list[tuple[NDArray[np.int32], NDArray[np.int32]]],
         measure: NDArray[np.float64],
-        one: Blocks,
+        blocks: Blocks,
     ) -> None:
-        self._slots, self._sources, self._measure, self._one = slots, sources, measure, one
+        self._slots, self._sources, self._measure, self._blocks = slots, sources, measure, blocks
 
     def for_faces(self, use: Callable[[NDArray[np.int32] | slice, NDArray[np.floating]], None]) -> None:
         """Call `use(faces, values)` for parts of the faces, with values of shape (3, n), on threads."""
 
-        def kernel(index: int, _: int) -> None:
-            faces, places = self._sources[index]
-            total = self._slots.take(places, axis=1).sum(axis=1)
-            part = slice(int(faces[0]), int(faces[-1]) + 1)
-            is_range = part.stop - part.start == len(faces)
-            chosen = part if is_range else faces
-            measure = self._measure[chosen]
-            if (measure != 1.0).any():
-                total /= measure.astype(total.dtype)
-            use(chosen, total)
+        def kernel(start: int, stop: int) -> None:
+            for faces, places in self._sources[start:stop]:
+                total = self._slots.take(places, axis=1).sum(axis=1)
+                part = slice(int(faces[0]), int(faces[-1]) + 1)
+                chosen = part if part.stop - part.start == len(faces) else faces
+                measure = self._measure[chosen]
+                if (measure != 1.0).any():
+                    total /= measure.astype(total.dtype)
+                use(chosen, total)
 
-        self._one.run(kernel, len(self._sources))
+        self._blocks.run(kernel, len(self._sources))
 
 
 def _differences(taps: NDArray[np.floating]) -> NDArray[np.floating]:

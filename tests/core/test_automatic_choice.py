@@ -56,6 +56,22 @@ def test_averages_over_rings(kind, blocks, rng):
         assert np.abs(smooth - (mesh.vertices - power @ mesh.vertices)).max() < ROUNDING
 
 
+@pytest.mark.parametrize("kind", ["irregular torus", "border", "mixed sheet", "three pages"])
+@pytest.mark.parametrize(("dtype", "error"), [(np.float64, 1e-11), (np.float32, 1e-5)])
+def test_many_averages_at_once_are_those_one_by_one(kind, dtype, error, rng):
+    """The series in Chebyshev polynomials against powers of the averages."""
+    mesh = noisy(KINDS[kind](), rng)
+    rings = RingAverages(connect(mesh), ALONE)
+    means = rings.outward(rings.mean(rings.inward(np.eye(mesh.n_vertices))))
+    average, one = 0.5 * means + 0.5 * np.eye(mesh.n_vertices), np.eye(mesh.n_vertices)
+    for k in (16, 64):
+        missing = np.linalg.matrix_power(one - np.linalg.matrix_power(average, k), ORDER)
+        expected = mesh.vertices - missing @ mesh.vertices
+        found = smooth_positions(mesh.vertices.T.astype(dtype), rings, k).T
+        assert found.dtype == dtype
+        assert np.abs(found - expected).max() < error
+
+
 def test_affine_positions_are_kept_inside_a_regular_grid():
     mesh = triangle_grid(40, 41)
     smooth = smooth_positions(mesh.vertices.T.copy(), RingAverages(connect(mesh), ALONE), 2).T
