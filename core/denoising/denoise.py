@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from ..automatic.filter import automatic_filter
-from ..memory import check_memory
+from ..memory import check_memory, give_back
 from ..noise import NoiseEstimate, estimate_noise
 from ..normals.filter import normal_filter
 from ..settings import DEFAULT_PRESET, PRESETS, DenoiseSettings
@@ -88,6 +88,7 @@ def denoise(
         prepared = prepare(surface, settings, connectivity=connectivity, dtype=dtype)
     elif not prepared.fits(surface, settings, dtype):
         raise ValueError("This was prepared for another mesh or other stencils; prepare it again.")
+    give_back(surface.n_vertices)
     ordered, noisy, reordering = prepared.ordered, prepared.noisy, prepared.reordering
     connectivity = prepared.connectivity
     if movable is not None and reordering is not None:
