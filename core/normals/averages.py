@@ -168,6 +168,21 @@ class Averages:
         """Call `kernel(start, stop)` for ranges of the items, numbered as inside, on threads."""
         self._item_blocks.run(kernel, len(self._items))
 
+    def go_on(self, weights: Weights, field: NDArray[np.floating], before: NDArray[np.floating]) -> None:
+        """Replace the field before by 2 A field - before, in place, as Chebyshev polynomials go on."""
+        tiles = before.reshape(-1, TILE, before.shape[1])
+
+        def kernel(start: int, stop: int) -> None:
+            for (begin, members, _), weight in zip(
+                self._chunks[start:stop], weights[start:stop], strict=True
+            ):
+                part = tiles[begin : begin + len(members)]
+                following = np.matmul(weight, field.take(members, axis=0))
+                following *= 2
+                np.subtract(following, part, out=part)
+
+        self._blocks.run(kernel, len(self._chunks))
+
     def average(self, weights: Weights, field: NDArray[np.floating]) -> NDArray[np.floating]:
         """Return the averages of a field; both are numbered as inside, shape (n, C)."""
         result = np.empty_like(field)

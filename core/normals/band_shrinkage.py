@@ -13,6 +13,8 @@ triangle and every weight.
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
+from math import comb
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,9 +26,8 @@ WIDEST = 4
 """Averaging steps, at most, that smooth local energies."""
 
 
-def average_steps(n_bands: int) -> int:
-    """Return the number of averages that a transform with so many bands takes."""
-    return 1 if n_bands < 2 else 2 ** (n_bands - 1)
+LEFT_OUT = 0.03
+"""Terms of the series of a power of A that are left out sum up to less than this."""
 
 
 def shrink_bands(
@@ -95,12 +96,16 @@ def shrink_inside(
     to_come = 0
     for band in range(n_bands):
         before = fields
-        for _ in range(1 if band == 0 else 2 ** (band - 1)):
+        n_steps = 1 if band == 0 else 2 ** (band - 1)
+        # The first steps one by one, as long as energies are on their way.
+        for _ in range(min(n_steps, WIDEST)):
             fields = averages.average(weights, fields)
             to_come -= 1
             if waiting is not None and not to_come:
                 _add_shrunk(result, waiting, fields[:, _N:], caution, averages)
                 waiting = None
+        if n_steps > WIDEST:
+            fields = _averaged_often(fields, n_steps - WIDEST, averages, weights)
         to_come = min(WIDEST, max(2, 2**band))
         high, fields = _split(before, fields, averages)
         del before
@@ -115,6 +120,52 @@ def shrink_inside(
         tick()
     result += fields[:, :3]
     return averages.outward(result).T
+
+
+def _averaged_often(
+    fields: NDArray[np.floating], n_steps: int, averages: Averages, weights: Weights
+) -> NDArray[np.floating]:
+    """Return A^n of fields, nearly, in far fewer steps; the fields are used up.
+
+    A is similar to a symmetric matrix with eigenvalues between -1 and 1, so that A^n is a sum of Chebyshev
+    polynomials T_j(A) with coefficients that fall off like a Gaussian of width sqrt(n). What is left out
+    touches only what the averages before have taken away already, and constants stay as they are.
+    """
+    coefficients = _power_series(n_steps)
+    before, current = fields, averages.average(weights, fields)
+    total = fields.dtype.type(coefficients[0]) * fields
+    total += fields.dtype.type(coefficients[1]) * current
+    for coefficient in coefficients[2:]:
+        averages.go_on(weights, current, before)
+        before, current = current, before
+        _add_times(fields.dtype.type(coefficient), current, total, averages)
+    return total
+
+
+def _add_times(
+    factor: np.floating, field: NDArray[np.floating], total: NDArray[np.floating], averages: Averages
+) -> None:
+    """Add a field to a sum, so many times."""
+
+    def kernel(start: int, stop: int) -> None:
+        total[start:stop] += factor * field[start:stop]
+
+    if factor:
+        averages.for_items(kernel)
+
+
+@cache
+def _power_series(exponent: int) -> list[float]:
+    """Return the Chebyshev coefficients of x^n, the small ones at the end left out, with sum 1.
+
+    They are the chances of a random walk of n steps to end j steps from where it began.
+    """
+    found = np.zeros(exponent + 1)
+    for apart in range(exponent, -1, -2):
+        found[apart] = comb(exponent, (exponent - apart) // 2) / 2.0 ** (exponent - (apart > 0))
+    left_out = np.cumsum(found[::-1])[::-1]
+    kept = found[: max(2, int(np.count_nonzero(left_out > LEFT_OUT)))]
+    return (kept / kept.sum()).tolist()
 
 
 def _split(

@@ -104,15 +104,22 @@ class VertexSteps:
         fit.faces.for_parts(begin)
 
     def points(
-        self, n_steps: int, constraints: Constraints | None = None
+        self,
+        n_steps: int,
+        constraints: Constraints | None = None,
+        origin: NDArray[np.floating] | None = None,
     ) -> Iterator[tuple[NDArray[np.floating], float]]:
-        """Yield positions, shape (3, N), and the rms motion of the vertices, after each step."""
+        """Yield positions, shape (3, N), and the rms motion of the vertices, after each step.
+
+        Constraints hold vertices at `origin`, shape (3, N), which is by default where the fit started.
+        """
+        origin = self._start if origin is None else origin
         displacement = np.zeros_like(self._start)
         for _ in range(n_steps):
             before, displacement = displacement, self.advance(displacement)
             points = self._start + displacement
             if constraints is not None:
-                constraints.apply(points, self._start)
+                constraints.apply(points, origin)
                 displacement = points - self._start
             yield points, rms_motion(displacement, before, self._fit.blocks)
 

@@ -10,7 +10,8 @@ import pytest
 from checks import lengths
 from framelet.core import PRESETS, SurfaceMesh, blocks, connect, denoise
 from framelet.core.automatic import filter as engine
-from framelet.core.automatic.recipes import RECIPES, NormalProblem
+from framelet.core.automatic.problem import NormalProblem
+from framelet.core.automatic.recipes import RECIPES
 from framelet.core.normals.means import ITEMS_IN_BLOCK
 from mesh_files import mesh_files, read_mesh
 from meshes import MESHES, bow_tie, clean_soup, faces_of, noisy, pyramid, soup, union

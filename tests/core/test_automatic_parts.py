@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from checks import assert_same_bits, lengths
 from framelet.core import SurfaceMesh
-from framelet.core.automatic.recipes import unit_noise
+from framelet.core.automatic.problem import unit_noise
 from framelet.core.blocks import Blocks
 from framelet.core.normals.averages import Averages, Members
-from framelet.core.normals.band_shrinkage import average_steps, shrink_bands
+from framelet.core.normals.band_shrinkage import LEFT_OUT, _averaged_often, _power_series, shrink_bands
 from framelet.core.normals.face_averages import FaceAverages
 from framelet.core.normals.means import Means
 from framelet.core.normals.neighbors import Ragged, faces_of_vertices, members_around
@@ -148,11 +148,37 @@ def test_bands_against_powers_of_a_matrix(n_bands, caution, rng):
     ).T
     assert np.abs(found - expected).max() < 1e-10
     assert len(ticks) == n_bands
-    assert n_bands == 0 or average_steps(n_bands) == 2 ** (n_bands - 1)
     if not caution:
         assert np.abs(found - field).max() < ROUNDING
     for x, y in zip(given, (field, noise, pilot), strict=True):
         assert_same_bits(x, y)
+
+
+@pytest.mark.parametrize("exponent", [4, 12, 28, 60])
+def test_many_averages_in_few_steps(exponent, rng):
+    """Against powers of the matrix; on what was averaged before the error is far below what is left out."""
+    mesh = KINDS["mixed sheet"]()
+    averages, *_ = face_averages(mesh, rng)
+    weights = averages.weights(rng.normal(size=(3, mesh.n_faces)), 2.0)
+    a = matrix_of(averages, weights, mesh.n_faces)
+    values = np.linalg.eigvals(a)
+    assert np.abs(values.imag).max() < 1e-9 and np.abs(values).max() < 1 + 1e-9
+    series = _power_series(exponent)
+    assert exponent == 4 or len(series) < 0.8 * exponent
+    assert sum(series) == pytest.approx(1, abs=1e-12) and min(series) >= 0
+    x = np.linspace(-1, 1, 201)
+    assert np.abs(np.polynomial.chebyshev.chebval(x, series) - x**exponent).max() < 2 * LEFT_OUT
+    field = rng.normal(size=(mesh.n_faces, 9))
+    found = averages.outward(_averaged_often(averages.inward(field), exponent, averages, weights))
+    first, second = np.eye(len(a)), a
+    expected = series[0] * field + series[1] * (a @ field)
+    for coefficient in series[2:]:
+        first, second = second, 2 * a @ second - first
+        expected += coefficient * (second @ field)
+    assert np.abs(found - expected).max() < 1e-10
+    even = np.ones((mesh.n_faces, 9))
+    kept = averages.outward(_averaged_often(averages.inward(even), exponent, averages, weights))
+    assert np.abs(kept - 1).max() < 1e-10
 
 
 def test_bands_without_noise_or_without_signal(rng):
