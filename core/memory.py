@@ -15,11 +15,11 @@ BASE_PER_VERTEX = 110
 BASE_PER_CORNER = 45
 """Bytes for the neighborhoods and for positions in several forms, which every method needs."""
 
-NORMALS_PER_CORNER = 150
+NORMALS_PER_CORNER = 125
 """Bytes for the engine on face normals, most of them weights of averages; all figures here are measured by
 `tests/benchmarks/speed`."""
 
-AUTOMATIC_PER_CORNER = 35
+AUTOMATIC_PER_CORNER = 65
 RECIPES_ONCE = 24 * 2**20
 """Bytes for automatic denoising besides: fields, their bands and a second result; and once, for measuring the
 noise and for trying all recipes on parts of a limited size."""

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ..blocks import Blocks
 from ..denoising.constraints import Constraints
-from ..memory import give_back
+from ..memory import MANY_ITEMS, give_back
 from ..normals.band_shrinkage import shrink_inside
 from ..normals.centroids import face_centroids
 from ..normals.face_averages import FaceAverages, face_averages
@@ -84,7 +84,6 @@ class NormalProblem:
         if sample is None:
             sample = unit_noise(scrambled(noisy, surface, self.at_vertex, sigma, 64.0, blocks))
         self.sample = sample
-        self.fit = VertexFit(surface, self.at_vertex, blocks)
         self.units: dict[int, float] = {}
         """Median differences that the noise makes between neighboring normals, by the averages before."""
         self._starts: dict[int, _Start] = {}
@@ -93,6 +92,11 @@ class NormalProblem:
     def neighbors(self) -> Neighbors:
         """The faces across edges; made quickly, and large."""
         return edge_neighbors(self.surface, self._connectivity)
+
+    @cached_property
+    def fit(self) -> VertexFit:
+        """Steps of the vertices."""
+        return VertexFit(self.surface, self.at_vertex, self.blocks)
 
     @cached_property
     def averages(self) -> FaceAverages:
@@ -165,6 +169,8 @@ class NormalProblem:
         points = self.fitted(start.points, normals, PILOT_VERTEX_STEPS)
         noise = self._noise_in_normals(points, start.sample)
         fields = self.averages.inward_rows([*start.normals, *noise, *normals])
+        if self.surface.n_faces >= MANY_ITEMS:
+            del self.fit  # made again quickly, and large when memory is needed most
         give_back(self.surface.n_faces)
         return fields
 

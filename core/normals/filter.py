@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from ..blocks import Blocks
 from ..denoising.constraints import Constraints
 from ..denoising.report import Callback
+from ..memory import give_back
 from ..settings import DenoiseSettings
 from ..surface.connectivity import Connectivity
 from ..surface.surface_mesh import SurfaceMesh
@@ -104,8 +105,12 @@ def _filtered_normals(
     )
     if not settings.average_steps:
         return normals
+    del vectors
     averages = face_averages(noisy, surface, at_vertex, neighbors, areas, blocks)
+    del neighbors
+    give_back(surface.n_faces)
     for _ in range(settings.passes):
-        weights = averages.weights(normals, settings.sigma_n)
-        normals = averages.smooth(noisy_normals, weights, settings.average_steps, tick)
+        normals = averages.smooth(
+            noisy_normals, averages.weights(normals, settings.sigma_n), settings.average_steps, tick
+        )
     return normals
