@@ -7,6 +7,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
+from .chosen_values import chosen_texts
+
 if TYPE_CHECKING:
     from ..core import Comparison, NoiseEstimate
     from ..core.denoising.report import DenoiseReport
@@ -76,6 +78,8 @@ def fill_estimate_of_run(properties: FrameletEstimate, measured: Mapping[str, Me
         if noise is not None:
             entry = _add_noise(properties, name, noise, item.scene_sigma)
             entry.is_denoised, entry.recipe = True, item.report.recipe
+            for field, text in chosen_texts(item.report).items():
+                setattr(entry, field, text)
 
 
 def forget_estimate(properties: FrameletEstimate, names: Iterable[str]) -> None:

@@ -21,6 +21,13 @@ def _edges(name: str, description: str) -> Any:
     return FloatProperty(name=name, description=description, precision=3)
 
 
+def _chosen(name: str) -> Any:
+    """Return the property of a setting that a run chose, in words."""
+    return StringProperty(
+        name=name, description="What the last run chose for this object; empty if it chose nothing"
+    )
+
+
 _SIGMA = "Standard deviation of the noise along the normals, in"
 _IMPULSIVE = "Some vertices are displaced much more than others; the noise is that of the quieter ones"
 
@@ -37,6 +44,10 @@ class FrameletNoise(bpy.types.PropertyGroup):
     recipe: StringProperty(
         name="Recipe", description="What automatic denoising chose; empty if it did not run"
     )
+    chosen_frame: _chosen("Frame")
+    chosen_levels: _chosen("Levels")
+    chosen_lambda: _chosen("Smoothing λ")
+    chosen_mu: _chosen("Penalty μ")
 
 
 class FrameletEstimate(bpy.types.PropertyGroup):
