@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from . import mesh_bridge
+from . import mesh_bridge, run_memory
 from .preparations import preparations
 
 if TYPE_CHECKING:
@@ -71,7 +71,7 @@ def denoise_and_measure(
     except ValueError as error:
         raise ValueError(f"‘{obj.name}’: {error}") from error
     if not result.report.is_stopped:
-        mesh_bridge.write_vertices(obj, surface, result.vertices)
+        run_memory.write_and_remember(obj, surface, result.vertices)
     rms, maximum = displacement_in_scene(obj, surface.vertices, result.vertices)
     noise = result.report.noise
     sigma = 0.0 if noise is None else length_in_scene(obj, noise.sigma)

@@ -90,3 +90,11 @@ def length_text(scene: bpy.types.Scene, length: float) -> str:
         split_unit=False,
         compatible_unit=False,
     )
+
+
+def value_text(scene: bpy.types.Scene, value: float, is_angle: bool) -> str:
+    """Return what a color stands for in words: a length with its sign, or an angle in degrees."""
+    if is_angle:
+        return f"{value:.4g}°"
+    # A true minus sign, as wide as a plus; Blender writes a hyphen.
+    return f"−{length_text(scene, -value)}" if value < 0.0 else length_text(scene, value)
