@@ -48,7 +48,7 @@ class RangeMixin:
     )
     percentile: FloatProperty(
         name="Percentile",
-        description="Share of the values that are within the range: larger makes the range wider and all colors paler",
+        description="Share of the values within the range: larger makes it wider, and all colors paler",
         default=98.0,
         min=1.0,
         max=100.0,

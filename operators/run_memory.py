@@ -3,9 +3,9 @@
 """Remembers where the vertices of a mesh were before and after its last run.
 
 It is kept in memory, not as an attribute: a run changes positions and nothing else, neither in the file nor
-in what other tools see. A mesh is recognized by Blender's number for it and by its present positions, value by
-value, so that undo, edits and other tools need not be watched: positions that are neither those before nor
-those after are another shape.
+in what other tools see. A mesh is recognized by Blender's number for it and by its present positions, value
+by value, so that undo, edits and other tools need not be watched: positions that are neither those before
+nor those after are another shape.
 """
 
 from __future__ import annotations
