@@ -13,6 +13,7 @@ classes = (
     *band_panels.classes,
     panel.VIEW3D_PT_framelet_advanced,
     *report_panels.classes,
+    *menus.classes,
 )
 
 _register_classes, _unregister_classes = register_classes_factory(classes)

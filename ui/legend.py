@@ -39,9 +39,7 @@ def is_wanted(context: bpy.types.Context) -> bool:
     shown = context.window_manager.framelet_band_range
     if not shown.names or not space.overlay.show_overlays:
         return False
-    if space.shading.type == "SOLID" and space.shading.color_type != "VERTEX":
-        return False
-    if space.shading.type not in {"SOLID", "MATERIAL", "RENDERED"}:
+    if (space.shading.type, space.shading.color_type) != ("SOLID", "VERTEX"):
         return False
     name = band_storage.HEAT_COLORS if shown.quantity else band_storage.COLORS
     objects = (context.view_layer.objects.get(each) for each in shown.names.split(", "))

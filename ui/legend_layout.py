@@ -101,10 +101,8 @@ def tick_places(is_signed: bool) -> list[float]:
 
 def tick_values(minimum: float, maximum: float, is_signed: bool) -> list[float]:
     """Return the numbers of the labels; the middle of a signed range is exactly 0."""
-    values = [minimum + place * (maximum - minimum) for place in tick_places(is_signed)]
-    if is_signed:
-        values[len(values) // 2] = 0.0
-    return values
+    # From both ends, so that the middle of a signed range is exactly 0 and its halves are mirror images.
+    return [(1.0 - place) * minimum + place * maximum for place in tick_places(is_signed)]
 
 
 def lay_out_legend(
