@@ -17,7 +17,7 @@ def chosen_texts(report: DenoiseReport) -> dict[str, str]:
     Automatic denoising cleans normals with the pairwise frame between faces. Its λ is a multiple of what the
     noise makes of the differences between neighboring faces, its levels are the bands of weighted averages.
     Where it took a low-pass of positions instead, there are no λ and μ. Where it took the mean of two
-    recipes, both are named.
+    recipes, there is a line for each.
     """
     settings = report.settings
     if settings.method == "POSITIONS" and report.noise is not None:
@@ -31,7 +31,8 @@ def chosen_texts(report: DenoiseReport) -> dict[str, str]:
     recipes = [recipe for recipe in RECIPES if _is_named(recipe.label.split(" and "), labels)]
     texts = [_recipe_texts(recipe) for recipe in recipes]
     names = texts[0] if texts else {}
-    return {name: ", ".join(dict.fromkeys(each[name] for each in texts if each[name])) for name in names}
+    lines = {name: "\n".join(dict.fromkeys(each[name] for each in texts if each[name])) for name in names}
+    return {"chosen_recipe": "\n".join(recipe.label for recipe in recipes) or report.recipe, **lines}
 
 
 def _is_named(words: list[str], labels: list[str]) -> bool:
@@ -47,7 +48,7 @@ def _recipe_texts(recipe: Recipe) -> dict[str, str]:
         averages = f"{recipe.n_averages} averages"
         return {"chosen_frame": "Low-pass", "chosen_levels": averages, "chosen_lambda": "", "chosen_mu": ""}
     return {
-        "chosen_frame": "Pairwise, on normals",
+        "chosen_frame": "Pairwise (normals)",
         "chosen_levels": str(recipe.n_bands),
         "chosen_lambda": f"{recipe.threshold:g} × noise",
         "chosen_mu": f"{COUPLING:g}",

@@ -19,6 +19,7 @@ from .estimate_noise import OBJECT_OT_framelet_estimate_noise
 from .heat_map import OBJECT_OT_framelet_heat_map, OBJECT_OT_framelet_hide_colors
 from .heat_settings import FrameletHeatMap
 from .preparations import forget_preparations
+from .presets import OBJECT_OT_framelet_preset_add
 from .report import (
     FrameletBandRange,
     FrameletComparison,
@@ -53,6 +54,7 @@ classes = (
     OBJECT_OT_framelet_before_after,
     OBJECT_OT_framelet_heat_map,
     OBJECT_OT_framelet_hide_colors,
+    OBJECT_OT_framelet_preset_add,
 )
 
 POINTERS = (

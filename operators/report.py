@@ -50,6 +50,7 @@ class FrameletNoise(bpy.types.PropertyGroup):
     recipe: StringProperty(
         name="Recipe", description="What automatic denoising chose; empty if it did not run"
     )
+    chosen_recipe: _chosen("Chosen")
     chosen_frame: _chosen("Frame")
     chosen_levels: _chosen("Levels")
     chosen_lambda: _chosen("Smoothing λ")

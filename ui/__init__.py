@@ -4,10 +4,11 @@
 
 from bpy.utils import register_classes_factory
 
-from . import band_panels, legend, menus, panel, report_panels, see_panel
+from . import band_panels, legend, menus, panel, preset_panel, report_panels, see_panel
 
 # Subpanels are shown in this order.
 classes = (
+    *preset_panel.classes,
     panel.VIEW3D_PT_framelet,
     *see_panel.classes,
     *band_panels.classes,

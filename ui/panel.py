@@ -13,6 +13,7 @@ from ..operators import mesh_facts
 from ..operators.denoise import OBJECT_OT_framelet_denoise
 from ..operators.setting_values import copy_settings, has_effect, is_replaced
 from .layouts import FrameletPanel, draw_settings, draw_value, settings_column
+from .preset_panel import VIEW3D_PT_framelet_presets
 
 MAIN_NAMES = (
     "tuning",
@@ -39,6 +40,7 @@ ADVANCED_NAMES = (
     "threads",
 )
 CHOSEN = (
+    ("Chosen", "chosen_recipe"),
     ("Frame", "chosen_frame"),
     ("Levels", "chosen_levels"),
     ("Smoothing λ", "chosen_lambda"),
@@ -53,6 +55,10 @@ class VIEW3D_PT_framelet(FrameletPanel, bpy.types.Panel):
     """Choose how to clean, and denoise the selected meshes."""
 
     bl_label = "Framelet"
+
+    def draw_header_preset(self, _context: bpy.types.Context) -> None:
+        """Draw the button with the list of presets."""
+        VIEW3D_PT_framelet_presets.draw_panel_header(self.layout)
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the button, engine and preset, the strength, and the settings that matter most."""
@@ -71,7 +77,7 @@ class VIEW3D_PT_framelet(FrameletPanel, bpy.types.Panel):
             return
         draw_settings(layout, settings, MAIN_NAMES, context.active_object)
         if is_replaced(settings.method, settings.tuning, "lambda_"):
-            _draw_chosen(layout, context, CHOSEN[2:])
+            _draw_chosen(layout, context, CHOSEN[3:])
 
 
 class VIEW3D_PT_framelet_advanced(FrameletPanel, bpy.types.Panel):
@@ -99,8 +105,8 @@ def _draw_chosen(
     entry = obj and context.window_manager.framelet_estimate.objects.get(obj.name)
     column = layout.column(align=True)
     column.active = False
-    is_known = bool(entry) and entry.is_denoised
-    if context.scene.framelet.method == "AUTO":
-        draw_value(column, "Chosen", entry.recipe if is_known and entry.recipe else "At the next run")
     for label, name in chosen:
-        draw_value(column, label, (getattr(entry, name) if is_known else "") or UNKNOWN)
+        text = getattr(entry, name) if entry and entry.is_denoised else ""
+        for line in (text or ("At the next run" if label == "Chosen" else UNKNOWN)).splitlines():
+            draw_value(column, label, line)
+            label = ""
