@@ -6,6 +6,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from bpy.app.translations import pgettext_n as n_
+from bpy.app.translations import pgettext_rpt as rpt_
+
 if TYPE_CHECKING:
     from ..core.automatic.recipes import Recipe
     from ..core.denoising.report import DenoiseReport
@@ -45,11 +48,16 @@ def _recipe_texts(recipe: Recipe) -> dict[str, str]:
     from ..core.normals.pilot import COUPLING
 
     if not recipe.range_sigmas:
-        averages = f"{recipe.n_averages} averages"
-        return {"chosen_frame": "Low-pass", "chosen_levels": averages, "chosen_lambda": "", "chosen_mu": ""}
+        averages = rpt_("{number} averages").format(number=recipe.n_averages)
+        return {
+            "chosen_frame": n_("Low-pass"),
+            "chosen_levels": averages,
+            "chosen_lambda": "",
+            "chosen_mu": "",
+        }
     return {
-        "chosen_frame": "Pairwise (normals)",
+        "chosen_frame": n_("Pairwise (normals)"),
         "chosen_levels": str(recipe.n_bands),
-        "chosen_lambda": f"{recipe.threshold:g} × noise",
+        "chosen_lambda": rpt_("{number} × noise").format(number=f"{recipe.threshold:g}"),
         "chosen_mu": f"{COUPLING:g}",
     }

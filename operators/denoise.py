@@ -24,10 +24,7 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Ask for a selected mesh, in Object Mode or Edit Mode."""
-        reason = targets.poll_reason(context)
-        if reason is not None:
-            cls.poll_message_set(reason)
-        return reason is None
+        return targets.allows(cls, targets.poll_reason(context))
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Show, when adjusting the last operation, the settings that the method uses."""

@@ -4,7 +4,7 @@
 
 from bpy.utils import register_classes_factory
 
-from . import band_panels, legend, menus, panel, preset_panel, report_panels, see_panel
+from . import band_panels, legend, menus, panel, preset_panel, report_panels, see_panel, translations
 
 # Subpanels are shown in this order.
 classes = (
@@ -25,10 +25,12 @@ def register() -> None:
     _register_classes()
     menus.register()
     legend.register()
+    translations.register()
 
 
 def unregister() -> None:
     """Take everything away in reverse order."""
+    translations.unregister()
     legend.unregister()
     menus.unregister()
     _unregister_classes()

@@ -8,6 +8,7 @@ It draws and never computes.
 from __future__ import annotations
 
 import bpy
+from bpy.app.translations import pgettext_n as n_
 
 from ..operators import mesh_facts
 from ..operators.denoise import OBJECT_OT_framelet_denoise
@@ -40,11 +41,11 @@ ADVANCED_NAMES = (
     "threads",
 )
 CHOSEN = (
-    ("Chosen", "chosen_recipe"),
-    ("Frame", "chosen_frame"),
-    ("Levels", "chosen_levels"),
-    ("Smoothing λ", "chosen_lambda"),
-    ("Penalty μ", "chosen_mu"),
+    (n_("Chosen"), "chosen_recipe"),
+    (n_("Frame"), "chosen_frame"),
+    (n_("Levels"), "chosen_levels"),
+    (n_("Smoothing λ"), "chosen_lambda"),
+    (n_("Penalty μ"), "chosen_mu"),
 )
 """What a run chose for an object: labels, and properties of `FrameletNoise`."""
 
@@ -107,6 +108,6 @@ def _draw_chosen(
     column.active = False
     for label, name in chosen:
         text = getattr(entry, name) if entry and entry.is_denoised else ""
-        for line in (text or ("At the next run" if label == "Chosen" else UNKNOWN)).splitlines():
+        for line in (text or (n_("At the next run") if label == "Chosen" else UNKNOWN)).splitlines():
             draw_value(column, label, line)
             label = ""
