@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from ..core import Comparison, NoiseEstimate
     from ..core.denoising.report import DenoiseReport
     from .band_values import BandChoice, ColorRange
-    from .denoise_object import MeasuredReport
+    from .denoise_job import MeasuredReport
     from .estimate_noise import MeasuredNoise
     from .report import FrameletBandRange, FrameletComparison, FrameletEstimate, FrameletNoise, FrameletReport
 
