@@ -41,9 +41,7 @@ class Carrier:
     vertex: NDArray[np.integer] | None = None
     face: NDArray[np.integer] | None = None
 
-    def moved(
-        self, displacement: NDArray[np.float64], blocks: Blocks | None = None
-    ) -> NDArray[np.floating]:
+    def moved(self, displacement: NDArray[np.float64], blocks: Blocks | None = None) -> NDArray[np.floating]:
         """Return the positions of `surface` after a displacement of `topology`.
 
         Parameters

@@ -10,9 +10,7 @@ from numpy.typing import NDArray
 from ..surface.surface_mesh import SurfaceMesh
 
 
-def corners_of(
-    surface: SurfaceMesh, faces: NDArray[np.integer]
-) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+def corners_of(surface: SurfaceMesh, faces: NDArray[np.integer]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Return how many corners each of some faces has, shape (n,), and the corners, face by face."""
     first = surface.face_offset[:-1][faces].astype(np.intp)
     counts = surface.face_offset[1:][faces].astype(np.intp) - first

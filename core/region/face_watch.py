@@ -61,6 +61,11 @@ class FaceWatch:
         self._is_over = np.zeros(carrier.topology.n_faces, bool)
 
     @property
+    def area_before(self) -> float:
+        """Area of the faces in the input, in squared scene units."""
+        return float(np.sqrt(dots(self.before, self.before)).sum())
+
+    @property
     def n_turned(self) -> int:
         """Faces whose normal has turned by more than a right angle."""
         return int(np.count_nonzero(dots(self.areas, self.before) < 0.0))
@@ -68,9 +73,8 @@ class FaceWatch:
     def is_bad(self) -> NDArray[np.bool_]:
         """Return which faces are worse than they were, shape (F,): folded, turned over, or degenerate.
 
-        A face has turned over if it is now at more than a right angle to its old normal and to the old
-        normals around it, and was not at more than a right angle to those before. So a fold of the input may
-        be smoothed out, which turns its faces too.
+        A face has turned over if it is at more than a right angle to its old normal, unless it was against
+        the faces around it before: a fold of the input may be smoothed out, which turns its faces too.
         """
         bad = self.is_folded & ~self.was_folded
         bad |= self.is_degenerate & ~self.was_degenerate
@@ -84,8 +88,8 @@ class FaceWatch:
         self.is_degenerate = self._degenerate(self.areas)
         self._is_over = self._over(self._all)
 
-    def look_at_volume(self, vertices: NDArray[np.floating]) -> float:
-        """Return the volume at new positions, shape (N, 3); everything else stays as it was seen last."""
+    def volume_at(self, vertices: NDArray[np.floating]) -> float:
+        """Return the volume at new positions, shape (N, 3). Look at all faces afterwards."""
         return self._measure(vertices)[1]
 
     def look_around(self, vertices: NDArray[np.floating], changed: NDArray[np.bool_]) -> None:
@@ -145,9 +149,7 @@ class FaceWatch:
         some = np.flatnonzero(over)
         if len(some) and self.carrier.connectivity.is_oriented:
             turned = faces[some]
-            around = self._around(self.before, turned)
-            over[some] = dots(self.areas[:, turned], around) < 0.0
-            over[some] &= dots(self.before[:, turned], around) >= 0.0
+            over[some] = dots(self.before[:, turned], self._around(self.before, turned)) >= 0.0
         return over
 
     def _folded(self, areas: NDArray[np.float64], faces: NDArray[np.intp]) -> NDArray[np.bool_]:

@@ -56,6 +56,8 @@ def take_back(
     for round_ in range(LAST_ROUND):
         bad = np.flatnonzero(watch.is_bad())
         if not len(bad):
+            if round_:
+                watch.look(vertices)  # the volume too
             return vertices
         changed = _vertices_of(watch, bad)
         stuck = bad[~_any_moves(watch, bad, shares)]
@@ -82,9 +84,7 @@ def _vertices_of(watch: FaceWatch, faces: NDArray[np.intp]) -> NDArray[np.bool_]
     return result
 
 
-def _any_moves(
-    watch: FaceWatch, faces: NDArray[np.intp], shares: NDArray[np.float64]
-) -> NDArray[np.bool_]:
+def _any_moves(watch: FaceWatch, faces: NDArray[np.intp], shares: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Return which of some faces have a vertex with a share above 0."""
     topology = watch.carrier.topology
     counts, corner = corners_of(topology, faces)

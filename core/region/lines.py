@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Feature lines: edges that stay sharp and are smoothed along themselves only.
 
-A vertex with two feature edges lies on a line. It takes the low-pass 1 - (1 - A^k)^m of the line, where A is the
-mean of a vertex and of its two neighbors on the line; of the motion the part across the line counts, up to
+A vertex with two feature edges lies on a line. It takes the low-pass 1 - (1 - A^k)^m of the line, where A is
+the mean of a vertex and of its two neighbors on the line; of the motion the part across the line counts, up to
 three times the noise that is measured on the lines themselves. Ends, crossings and corners of lines stay.
 """
 
@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 LOW_PASS_STEPS = 8
 LOW_PASS_ROUNDS = 3
-"""k and m: a wave of 16 edges loses 1 %, one of 7 edges half, and of white noise half of the height is left."""
+"""k and m: a wave of 16 edges loses 2 %, one of 7 edges half; of white noise half of the height is left."""
 
 LARGEST_MOTION = 3.0
 """Motion of a line's vertex, in units of the noise on the lines."""
@@ -24,7 +24,7 @@ LARGEST_MOTION = 3.0
 CORNER_TURN = 60.0
 CORNER_REACH = 3
 CORNER_SHARE = 0.6
-"""A line has a corner where chords over so many edges turn by more degrees, most of it at the vertex itself."""
+"""A line has a corner where chords over so many edges turn by more degrees, most of it at the vertex."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -66,6 +66,13 @@ class Motion:
         """Whether an offset can do something."""
         return self._direction is not None and bool(self._direction.any())
 
+    @property
+    def mean_share(self) -> float:
+        """Mean share that the vertices have in the offset."""
+        if self._direction is None:
+            return 0.0
+        return float(np.sqrt(np.einsum("cn,cn->n", self._direction, self._direction)).mean())
+
     def at(self, offset: float = 0.0) -> NDArray[np.float64]:
         """Return the displacements, shape (3, n), with an offset along the normals, in the mesh's unit."""
         moved = self._found

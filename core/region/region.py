@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from numbers import Real
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,8 +31,8 @@ class Region:
     keep_volume : bool
         Whether a closed mesh keeps its volume; an open mesh has none to keep.
     weld_distance : float or None
-        Vertices at most so far apart, in the unit of the mesh, are one vertex for the work, and move together;
-        0 for those at the same place, None for no welding.
+        Vertices at most so far apart, in the unit of the mesh, are one vertex for the work, and move
+        together; 0 for those at the same place, None for no welding.
     repair_folds : bool
         Whether motions that fold faces are taken back.
 
@@ -67,12 +68,12 @@ class Region:
         if self.weights is not None:
             if len(self.weights) != n_vertices:
                 raise ValueError(
-                    f"There are {len(self.weights)} weights for {n_vertices} vertices; give one for each vertex."
+                    f"There are {len(self.weights)} weights for {n_vertices} vertices; give one for each."
                 )
             if not np.any(self.weights):
                 raise ValueError("All weights are 0, so that no vertex may move; give some a larger weight.")
         edges = self.feature_edges
-        if edges is not None and np.size(edges) and not (0 <= np.min(edges) and np.max(edges) < n_vertices):
+        if edges is not None and np.size(edges) and (np.min(edges) < 0 or np.max(edges) >= n_vertices):
             wrong = int(np.min(edges)) if np.min(edges) < 0 else int(np.max(edges))
             raise ValueError(
                 f"A feature edge names vertex {wrong}, but there are {n_vertices} vertices; take it out."
@@ -93,7 +94,7 @@ def _check_weights(weights: NDArray) -> None:
         )
 
 
-def _check_length(name: str, value: float | None) -> None:
+def _check_length(name: str, value: Any) -> None:
     """Raise ValueError unless this is None or a length that is not negative."""
     if value is None:
         return

@@ -12,7 +12,9 @@ VOLUME_TOLERANCE = 1e-7
 STEPS = 30
 
 
-def volume_offset(volume_at: Callable[[float], float], target: float, area: float, start: float = 0.0) -> float:
+def volume_offset(
+    volume_at: Callable[[float], float], target: float, area: float, start: float = 0.0
+) -> float:
     """Return the offset at which a surface has a volume.
 
     Parameters

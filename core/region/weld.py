@@ -108,9 +108,7 @@ def _first_numbers(number: NDArray[np.int64]) -> NDArray[np.int64]:
     return rank[group.reshape(-1)]
 
 
-def _linked(
-    vertices: NDArray[np.floating], groups: NDArray[np.int64], distance: float
-) -> NDArray[np.int64]:
+def _linked(vertices: NDArray[np.floating], groups: NDArray[np.int64], distance: float) -> NDArray[np.int64]:
     """Return the group of each vertex, shape (N,), with groups joined that are at most `distance` apart."""
     n = int(groups.max()) + 1 if len(groups) else 0
     points = np.empty((n, 3))
