@@ -35,8 +35,7 @@ class DenoiseReport:
     displacement_rms: float
     displacement_max: float
     flipped_faces: int
-    """Faces whose normal turned by more than a right angle; with folds repaired, only those that were against
-    the faces around them in the input."""
+    """Faces whose normal turned by more than a right angle, as where a fold or a spike was smoothed out."""
     volume_change: float | None
     """(after - before) / before; None unless the mesh is closed."""
     irregular_vertices: int

@@ -73,8 +73,9 @@ class FaceWatch:
     def is_bad(self) -> NDArray[np.bool_]:
         """Return which faces are worse than they were, shape (F,): folded, turned over, or degenerate.
 
-        A face has turned over if it is at more than a right angle to its old normal, unless it was against
-        the faces around it before: a fold of the input may be smoothed out, which turns its faces too.
+        A face has turned over if it is now at more than a right angle to its old normal and to the old
+        normals around it, and was not at more than a right angle to those before. So a fold or a spike of
+        the input may be smoothed out, which turns its faces too.
         """
         bad = self.is_folded & ~self.was_folded
         bad |= self.is_degenerate & ~self.was_degenerate
@@ -149,7 +150,9 @@ class FaceWatch:
         some = np.flatnonzero(over)
         if len(some) and self.carrier.connectivity.is_oriented:
             turned = faces[some]
-            over[some] = dots(self.before[:, turned], self._around(self.before, turned)) >= 0.0
+            around = self._around(self.before, turned)
+            over[some] = dots(self.areas[:, turned], around) < 0.0
+            over[some] &= dots(self.before[:, turned], around) >= 0.0
         return over
 
     def _folded(self, areas: NDArray[np.float64], faces: NDArray[np.intp]) -> NDArray[np.bool_]:

@@ -3,7 +3,7 @@
 """From the displacements that a method found to the positions of the result.
 
 The order: direction along the normals, weights, offset for the volume, largest displacement, folds. Folds
-come last, so that no other step makes new ones; as damping changes the volume, the offset is looked for again.
+come last, so that no other step makes new ones; damping changes the volume, so the offset is then found anew.
 """
 
 from __future__ import annotations

@@ -3,8 +3,8 @@
 """Feature lines: edges that stay sharp and are smoothed along themselves only.
 
 A vertex with two feature edges lies on a line. It takes the low-pass 1 - (1 - A^k)^m of the line, where A is
-the mean of a vertex and of its two neighbors on the line; of the motion the part across the line counts, up to
-three times the noise that is measured on the lines themselves. Ends, crossings and corners of lines stay.
+the mean of a vertex and of its two neighbors on the line; of the motion the part across the line counts, up
+to three times the noise that is measured on the lines themselves. Ends, crossings and corners of lines stay.
 """
 
 from __future__ import annotations

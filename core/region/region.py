@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -98,7 +97,7 @@ def _check_length(name: str, value: Any) -> None:
     """Raise ValueError unless this is None or a length that is not negative."""
     if value is None:
         return
-    if not isinstance(value, Real) or isinstance(value, bool):
+    if not isinstance(value, int | float | np.integer | np.floating) or isinstance(value, bool):
         raise ValueError(f"The {name} is {value!r}; it must be a number.")
     if not 0.0 <= value < float("inf"):
         raise ValueError(f"The {name} is {value:g}; it must be 0 or a positive number.")
