@@ -41,6 +41,8 @@ class DenoiseJob:
     movable : ndarray of bool, shape (N,), or None
         Vertices that may move; None for all. What else limits a run to a part of the mesh stands beside it,
         is read by `read_job` and handed to `core.denoise` by `compute`.
+    output : str
+        One of `output.OUTPUTS`, where the result goes.
     """
 
     name: str
@@ -48,6 +50,7 @@ class DenoiseJob:
     settings: DenoiseSettings
     linear: NDArray[np.float64]
     movable: NDArray[np.bool_] | None = None
+    output: str = "IN_PLACE"
 
 
 class MeasuredReport(NamedTuple):
@@ -95,7 +98,7 @@ def compute(
     """
     from ..core import denoise
 
-    with borrowed_preparations() as cache:
+    with borrowed_preparations(should_stop) as cache:
         try:
             result = denoise(
                 job.surface,

@@ -20,14 +20,23 @@ if TYPE_CHECKING:
     from ..core import SurfaceMesh
 
 
-def ownership_refusal(obj: bpy.types.Object | None) -> str | None:
-    """Say in one sentence why nothing can be written to the mesh of an object; None if it can be."""
+def kind_refusal(obj: bpy.types.Object | None) -> str | None:
+    """Say in one sentence why an object has no mesh; None if it has one."""
     if obj is None:
         return "There is no active object; select a mesh object."
-    name = f"‘{obj.name}’"
     if obj.type != "MESH":
-        return f"{name} is not a mesh; select mesh objects, or convert it first (Object > Convert > Mesh)."
-    mesh = obj.data
+        return (
+            f"‘{obj.name}’ is not a mesh; select mesh objects, or convert it first (Object > Convert > Mesh)."
+        )
+    return None
+
+
+def ownership_refusal(obj: bpy.types.Object | None) -> str | None:
+    """Say in one sentence why nothing can be written to the mesh of an object; None if it can be."""
+    reason = kind_refusal(obj)
+    if reason is not None:
+        return reason
+    name, mesh = f"‘{obj.name}’", obj.data
     if mesh.library is not None:
         return (
             f"{name} uses a mesh linked from {mesh.library.filepath}; "
@@ -41,21 +50,25 @@ def ownership_refusal(obj: bpy.types.Object | None) -> str | None:
     return None
 
 
+def faces_refusal(obj: bpy.types.Object) -> str | None:
+    """Say in one sentence that a mesh has no faces; None if it has."""
+    mesh = obj.data
+    n_faces = len(bmesh.from_edit_mesh(mesh).faces) if mesh.is_editmode else len(mesh.polygons)
+    return None if n_faces else f"‘{obj.name}’ has no faces; Framelet works on surfaces."
+
+
 def refusal(obj: bpy.types.Object | None) -> str | None:
     """Say in one sentence why the mesh of an object cannot be edited; None if it can be."""
     reason = ownership_refusal(obj)
     if reason is not None:
         return reason
-    name, mesh = f"‘{obj.name}’", obj.data
+    name = f"‘{obj.name}’"
     if obj.mode not in {"OBJECT", "EDIT"}:
         return f"{name} is in another mode; switch to Object Mode or Edit Mode."
     key = obj.active_shape_key
     if key is not None and key.lock_shape:
         return f"The active shape key ‘{key.name}’ of {name} is locked; unlock it or choose another one."
-    n_faces = len(bmesh.from_edit_mesh(mesh).faces) if mesh.is_editmode else len(mesh.polygons)
-    if n_faces == 0:
-        return f"{name} has no faces; Framelet works on surfaces."
-    return None
+    return faces_refusal(obj)
 
 
 def read_surface(obj: bpy.types.Object) -> SurfaceMesh:
@@ -86,7 +99,7 @@ def read_surface_and_movable(obj: bpy.types.Object) -> tuple[SurfaceMesh, NDArra
     """
     mesh = obj.data
     if not mesh.is_editmode:
-        return _read_arrays(mesh, _active_key(obj)), None
+        return _read_arrays(mesh, active_key(obj)), None
     # A temporary mesh gives arrays without a Python loop over the BMesh.
     temporary = bpy.data.meshes.new(".framelet")
     try:
@@ -95,6 +108,17 @@ def read_surface_and_movable(obj: bpy.types.Object) -> tuple[SurfaceMesh, NDArra
         return _read_arrays(temporary, None), movable
     finally:
         bpy.data.meshes.remove(temporary)
+
+
+def has_counts_of(obj: bpy.types.Object, surface: SurfaceMesh) -> bool:
+    """Tell whether a mesh has as many vertices, edges and faces as when it was read."""
+    mesh = obj.data
+    if mesh.is_editmode:
+        edit_mesh = bmesh.from_edit_mesh(mesh)
+        counts = (len(edit_mesh.verts), len(edit_mesh.edges), len(edit_mesh.faces))
+    else:
+        counts = (len(mesh.vertices), len(mesh.edges), len(mesh.polygons))
+    return counts == (surface.n_vertices, surface.n_edges, surface.n_faces)
 
 
 def read_weights(obj: bpy.types.Object, group_name: str) -> NDArray[np.float64]:
@@ -152,20 +176,14 @@ def write_vertices(obj: bpy.types.Object, before: SurfaceMesh, vertices: NDArray
     vertices : ndarray, shape (N, 3)
         New positions in object space.
     """
-    import numpy as np
-
-    # Compared by value, so that a zero that only changed its sign keeps its bits too.
-    new = np.asarray(vertices, np.float32)
-    moved = np.flatnonzero((new != before.vertices).any(axis=1))
+    moved, positions = _moved(before, vertices)
     if len(moved) == 0:
         return
     mesh = obj.data
     if mesh.is_editmode:
-        _write_edit_mesh(mesh, moved, new)
+        _write_edit_mesh(mesh, moved, positions)
         return
-    positions = before.vertices.astype(np.float32)
-    positions[moved] = new[moved]
-    active = _active_key(obj)
+    active = active_key(obj)
     if active is None:
         _write_positions(mesh, positions)
     else:
@@ -180,6 +198,25 @@ def write_vertices(obj: bpy.types.Object, before: SurfaceMesh, vertices: NDArray
         if reference in [active, *dependent]:
             _write_positions(mesh, _read_key_points(reference))
     mesh.update()
+
+
+def write_key(key: bpy.types.ShapeKey, before: SurfaceMesh, vertices: NDArray[np.floating]) -> None:
+    """Write positions to one shape key; vertices that did not move have the bits they had when read."""
+    _write_key_points(key, _moved(before, vertices)[1])
+
+
+def _moved(
+    before: SurfaceMesh, vertices: NDArray[np.floating]
+) -> tuple[NDArray[np.intp], NDArray[np.float32]]:
+    """Return which vertices moved, and all positions, shape (N, 3)."""
+    import numpy as np
+
+    # Compared by value, so that a zero that only changed its sign keeps its bits too.
+    new = np.asarray(vertices, np.float32)
+    moved = np.flatnonzero((new != before.vertices).any(axis=1))
+    positions = before.vertices.astype(np.float32)
+    positions[moved] = new[moved]
+    return moved, positions
 
 
 def _write_edit_mesh(mesh: bpy.types.Mesh, moved: NDArray[np.intp], vertices: NDArray[np.float32]) -> None:
@@ -234,8 +271,8 @@ def _write_positions(mesh: bpy.types.Mesh, positions: NDArray[np.float32]) -> No
     mesh.attributes["position"].data.foreach_set("vector", positions.reshape(-1))
 
 
-def _active_key(obj: bpy.types.Object) -> bpy.types.ShapeKey | None:
-    """Return the shape key that is edited; None without shape keys."""
+def active_key(obj: bpy.types.Object) -> bpy.types.ShapeKey | None:
+    """Return the shape key that is read and edited; None without shape keys."""
     keys = obj.data.shape_keys
     if keys is None:
         return None

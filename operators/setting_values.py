@@ -92,6 +92,7 @@ def to_settings(properties: Any) -> DenoiseSettings:
 def copy_settings(source: Any, target: Any) -> None:
     """Copy all properties of scene settings to an operator, so that the operator needs nothing else."""
     target.preset = source.preset
+    target.output = source.output
     fill(target, to_settings(source))
 
 

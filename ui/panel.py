@@ -12,8 +12,9 @@ from ..operators.compare import OBJECT_OT_framelet_compare
 from ..operators.denoise import OBJECT_OT_framelet_denoise
 from ..operators.estimate_noise import OBJECT_OT_framelet_estimate_noise
 from ..operators.setting_values import copy_settings, has_effect
-from . import band_panels
+from . import band_panels, output_panel
 from .layouts import FrameletPanel, draw_lengths, draw_settings, draw_value
+from .run_rows import draw_progress
 
 MAIN_NAMES = (
     "method",
@@ -56,6 +57,7 @@ class VIEW3D_PT_framelet(FrameletPanel, bpy.types.Panel):
         row = layout.row()
         row.scale_y = 1.5
         copy_settings(settings, row.operator(OBJECT_OT_framelet_denoise.bl_idname, icon="MOD_SMOOTH"))
+        draw_progress(layout)
         layout.operator(OBJECT_OT_framelet_estimate_noise.bl_idname, icon="RNDCURVE")
         _draw_noise(layout, context)
         draw_settings(layout, settings, MAIN_NAMES, context.active_object)
@@ -161,6 +163,7 @@ def _draw_noise(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
 classes = (
     VIEW3D_PT_framelet,
     VIEW3D_PT_framelet_last_run,
+    *output_panel.classes,
     VIEW3D_PT_framelet_advanced,
     *band_panels.classes,
     VIEW3D_PT_framelet_try_it,
