@@ -11,6 +11,8 @@ from .current_run import IS_RUNNING, current_run, set_current
 from .denoise_run import DenoiseRun, State, begin_run
 from .filled_reports import fill_estimate_of_run, fill_report
 from .output import select_instead
+from .region_settings import RegionMixin
+from .region_values import shown_region_names, to_region_options
 from .report import FrameletReport
 from .run_display import RunDisplay
 from .scene_units import length_text, noise_text
@@ -23,7 +25,7 @@ TICK = 0.05
 CANCELED = "Canceled; nothing was changed"
 
 
-class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, bpy.types.Operator):
+class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, RegionMixin, bpy.types.Operator):
     """Remove noise from the selected meshes; in Edit Mode only the selected vertices move"""
 
     bl_idname = "object.framelet_denoise"
@@ -49,6 +51,8 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, bpy.types.Operator)
                 row.active = not is_replaced(self.method, self.tuning, name)
                 row.prop(self, name)
         layout.prop(self, "output")
+        for name in shown_region_names(self):
+            layout.prop(self, name)
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         """Start the run on a thread and stay in charge of it; without a window, run at once."""
@@ -102,7 +106,9 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, bpy.types.Operator)
         # The panel for adjusting the last operation shows the values that were used, defaults included.
         fill(self, settings)
         try:
-            self._run: DenoiseRun = begin_run(targets.target_objects(context), settings, self.output)
+            self._run: DenoiseRun = begin_run(
+                targets.target_objects(context), settings, self.output, to_region_options(self)
+            )
             set_current(self._run)
         except ValueError as error:
             self.report({"ERROR"}, str(error))

@@ -9,9 +9,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from . import mesh_bridge
+from ..core.region_options import RegionOptions
 from .denoise_job import DenoiseJob, DenoiseOutcome, MeasuredReport, compute
 from .output import IN_PLACE, refusal, write_output
+from .region_bridge import read_region
 from .scene_units import linear_part
 
 if TYPE_CHECKING:
@@ -21,7 +22,12 @@ if TYPE_CHECKING:
     from ..core.settings import DenoiseSettings
 
 
-def read_job(obj: bpy.types.Object, settings: DenoiseSettings, output: str = IN_PLACE) -> DenoiseJob:
+def read_job(
+    obj: bpy.types.Object,
+    settings: DenoiseSettings,
+    output: str = IN_PLACE,
+    options: RegionOptions | None = None,
+) -> DenoiseJob:
     """Read what a run needs of an object.
 
     Parameters
@@ -32,19 +38,19 @@ def read_job(obj: bpy.types.Object, settings: DenoiseSettings, output: str = IN_
         What will be done.
     output : str
         One of `output.OUTPUTS`.
+    options : RegionOptions, optional
+        What limits the run; by default selection and hidden vertices alone.
 
     Raises
     ------
     ValueError
-        With a sentence that names the object, if it cannot be edited or nothing is selected.
+        With a sentence that names the object, if it cannot be edited or nothing may move.
     """
     reason = refusal(obj, output)
     if reason is not None:
         raise ValueError(reason)
-    surface, movable = mesh_bridge.read_surface_and_movable(obj)
-    if movable is not None and not movable.any():
-        raise ValueError(f"‘{obj.name}’ has no selected vertices; select what should be denoised.")
-    return DenoiseJob(obj.name, surface, settings, linear_part(obj), movable, output)
+    surface, movable, region = read_region(obj, options or RegionOptions())
+    return DenoiseJob(obj.name, surface, settings, linear_part(obj), movable, region, output)
 
 
 def write_outcome(obj: bpy.types.Object, job: DenoiseJob, outcome: DenoiseOutcome) -> bpy.types.Object:
@@ -79,6 +85,7 @@ def denoise_object(
     settings: DenoiseSettings,
     callback: Callback | None = None,
     output: str = IN_PLACE,
+    options: RegionOptions | None = None,
 ) -> DenoiseReport:
     """Denoise the mesh of an object; in Edit Mode only the selected vertices.
 
@@ -92,6 +99,8 @@ def denoise_object(
         `callback(fraction, change)`, called after each iteration; returns True to stop.
     output : str
         Where the result goes, one of `output.OUTPUTS`.
+    options : RegionOptions, optional
+        What limits the run to parts of the mesh, and how far vertices may move.
 
     Returns
     -------
@@ -103,7 +112,7 @@ def denoise_object(
     ValueError
         With a sentence that begins with the object's name. Everything is as it was.
     """
-    return denoise_and_measure(obj, settings, callback, output).measured.report
+    return denoise_and_measure(obj, settings, callback, output, options).measured.report
 
 
 def denoise_and_measure(
@@ -111,9 +120,10 @@ def denoise_and_measure(
     settings: DenoiseSettings,
     callback: Callback | None = None,
     output: str = IN_PLACE,
+    options: RegionOptions | None = None,
 ) -> DenoisedObject:
     """Denoise as `denoise_object` does, say which object has the result, and measure with its scale too."""
-    job = read_job(obj, settings, output)
+    job = read_job(obj, settings, output, options)
     outcome = compute(job, callback)
     if not outcome.measured.report.is_stopped:
         obj = write_outcome(obj, job, outcome)

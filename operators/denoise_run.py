@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
     import bpy
 
+    from ..core.region_options import RegionOptions
     from ..core.settings import DenoiseSettings
 
 UNCHANGED = "nothing was changed"
@@ -196,7 +197,10 @@ class DenoiseRun:
 
 
 def begin_run(
-    objects: Iterable[bpy.types.Object], settings: DenoiseSettings, output: str = "IN_PLACE"
+    objects: Iterable[bpy.types.Object],
+    settings: DenoiseSettings,
+    output: str = "IN_PLACE",
+    options: RegionOptions | None = None,
 ) -> DenoiseRun:
     """Read all that a run needs.
 
@@ -208,6 +212,8 @@ def begin_run(
         What to do with each.
     output : str
         One of `output.OUTPUTS`.
+    options : RegionOptions, optional
+        What limits the run.
 
     Raises
     ------
@@ -217,7 +223,7 @@ def begin_run(
     jobs, failures = [], []
     for obj in objects:
         try:
-            jobs.append((mark_of(obj), read_job(obj, settings, output)))
+            jobs.append((mark_of(obj), read_job(obj, settings, output, options)))
         except ValueError as error:
             failures.append(str(error))
     if not jobs:

@@ -2,12 +2,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Blender meshes as arrays and back: with `band_storage` the only file that reads or writes mesh data.
 
+What limits a run to parts of a mesh is read through it by `region_bridge`.
+
 In Object Mode the arrays come from the mesh, in Edit Mode from the BMesh of the edit session. With shape keys
 the active key is what is read and edited, as in Blender's own Edit Mode. Nothing but positions is written.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 import bmesh
@@ -97,15 +101,25 @@ def read_surface_and_movable(obj: bpy.types.Object) -> tuple[SurfaceMesh, NDArra
     movable : ndarray of bool, shape (N,), or None
         True for the selected vertices that are not hidden; None, for all, in Object Mode.
     """
+    with readable_mesh(obj) as mesh:
+        if not obj.data.is_editmode:
+            return read_arrays(mesh, active_key(obj)), None
+        movable = read_flag(mesh, ".select_vert") & ~read_flag(mesh, ".hide_vert")
+        return read_arrays(mesh, None), movable
+
+
+@contextmanager
+def readable_mesh(obj: bpy.types.Object) -> Iterator[bpy.types.Mesh]:
+    """Give a mesh whose arrays can be read: the object's own, in Edit Mode a copy of the edit session."""
     mesh = obj.data
     if not mesh.is_editmode:
-        return _read_arrays(mesh, active_key(obj)), None
+        yield mesh
+        return
     # A temporary mesh gives arrays without a Python loop over the BMesh.
     temporary = bpy.data.meshes.new(".framelet")
     try:
         bmesh.from_edit_mesh(mesh).to_mesh(temporary)
-        movable = _read_flag(temporary, ".select_vert") & ~_read_flag(temporary, ".hide_vert")
-        return _read_arrays(temporary, None), movable
+        yield temporary
     finally:
         bpy.data.meshes.remove(temporary)
 
@@ -230,7 +244,7 @@ def _write_edit_mesh(mesh: bpy.types.Mesh, moved: NDArray[np.intp], vertices: ND
     bmesh.update_edit_mesh(mesh, loop_triangles=True, destructive=False)
 
 
-def _read_arrays(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey | None) -> SurfaceMesh:
+def read_arrays(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey | None) -> SurfaceMesh:
     """Read the arrays of a mesh, with the positions of a shape key if one is given."""
     import numpy as np
 
@@ -255,13 +269,24 @@ def _read_arrays(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey | None) -> Surfac
     return SurfaceMesh(vertices, corner_vertex, corner_edge, face_offset, edges)
 
 
-def _read_flag(mesh: bpy.types.Mesh, name: str) -> NDArray[np.bool_]:
+def read_flag(mesh: bpy.types.Mesh, name: str) -> NDArray[np.bool_]:
     """Read a vertex attribute of truth values; Blender leaves it away when all are false."""
     import numpy as np
 
     values = np.zeros(len(mesh.vertices), np.bool_)
     attribute = mesh.attributes.get(name)
     if attribute is not None:
+        attribute.data.foreach_get("value", values)
+    return values
+
+
+def read_edge_values(mesh: bpy.types.Mesh, name: str, dtype: str) -> NDArray:
+    """Read an attribute of edges, shape (E,); all false or 0 where there is none of this name."""
+    import numpy as np
+
+    values = np.zeros(len(mesh.edges), dtype)
+    attribute = mesh.attributes.get(name)
+    if attribute is not None and attribute.domain == "EDGE":
         attribute.data.foreach_get("value", values)
     return values
 

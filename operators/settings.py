@@ -10,6 +10,7 @@ import bpy
 
 from ..core.settings import DEFAULT_PRESET, PRESETS, DenoiseSettings, SettingInfo
 from .output import IN_PLACE, OUTPUTS
+from .region_settings import RegionMixin
 from .setting_values import CUSTOM, DEFINING, FRAME_NAMES, follow_preset, leave_preset
 
 FIELDS = {item.name: item for item in fields(DenoiseSettings)}
@@ -110,5 +111,5 @@ class OutputMixin:
     )
 
 
-class FrameletSettings(SettingsMixin, OutputMixin, bpy.types.PropertyGroup):
+class FrameletSettings(SettingsMixin, OutputMixin, RegionMixin, bpy.types.PropertyGroup):
     """The settings that the sidebar shows, stored with the scene."""

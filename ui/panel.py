@@ -12,7 +12,7 @@ from ..operators.compare import OBJECT_OT_framelet_compare
 from ..operators.denoise import OBJECT_OT_framelet_denoise
 from ..operators.estimate_noise import OBJECT_OT_framelet_estimate_noise
 from ..operators.setting_values import copy_settings, has_effect
-from . import band_panels, output_panel
+from . import band_panels, output_panel, region_panel
 from .layouts import FrameletPanel, draw_lengths, draw_settings, draw_value
 from .run_rows import draw_progress
 
@@ -101,6 +101,7 @@ class VIEW3D_PT_framelet_last_run(FrameletPanel, bpy.types.Panel):
         volume = f"{report.volume_change:+.2f} %" if report.is_closed else "Open mesh"
         draw_value(column, "Volume", volume)
         draw_value(column, "Flipped Faces", f"{report.flipped_faces:,}")
+        region_panel.draw_repairs(column, report)
         for label, name in (
             ("Irregular", "irregular_vertices"),
             ("Boundary", "boundary_vertices"),
@@ -164,6 +165,7 @@ classes = (
     VIEW3D_PT_framelet,
     VIEW3D_PT_framelet_last_run,
     *output_panel.classes,
+    *region_panel.classes,
     VIEW3D_PT_framelet_advanced,
     *band_panels.classes,
     VIEW3D_PT_framelet_try_it,

@@ -5,14 +5,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import numpy as np
-from numpy.typing import NDArray
+from .choices import Choice
+from .setting_info import check_value, setting_field
 
-from ..choices import Choice
-from ..setting_info import check_value, setting_field
-from .region import Region
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from .region.region import Region
 
 LIMITS = (
     Choice("NONE", "None", "Vertices move as far as the method moves them"),
@@ -128,6 +130,8 @@ class RegionOptions:
         feature_edges : ndarray, shape (E, 2), or None
             Its sharp edges.
         """
+        from .region.region import Region  # and NumPy, which enabling the extension must not import
+
         if weights is not None and self.invert_group:
             weights = 1.0 - weights
         limit: dict[str, Any] = {
