@@ -8,39 +8,14 @@ scene settings and command line options are generated from its fields.
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields, replace
-from numbers import Integral, Real
+from dataclasses import dataclass, fields, replace
 from typing import Any, NamedTuple
 
-from .choices import BOUNDARIES, FRAMES, METHODS, SHRINKAGES, STENCILS, TUNINGS, Choice
-
-
-@dataclass(frozen=True)
-class SettingInfo:
-    """What a user interface needs to know about one setting.
-
-    `soft_maximum` is where a slider ends; typing may go up to `maximum`. `symbol` is the paper's letter.
-    `methods` are the methods that use the setting; empty for all.
-    """
-
-    label: str
-    description: str
-    minimum: float | None = None
-    maximum: float | None = None
-    soft_maximum: float | None = None
-    choices: tuple[Choice, ...] = ()
-    symbol: str = ""
-    methods: tuple[str, ...] = ()
-
-    def has_effect(self, method: str) -> bool:
-        """Tell whether a method uses the setting."""
-        return not self.methods or method in self.methods
-
-
-def _setting(default: Any, label: str, description: str, **info: Any) -> Any:
-    return field(default=default, metadata={"info": SettingInfo(label, description, **info)})
+from .choices import BOUNDARIES, FRAMES, METHODS, SHRINKAGES, STENCILS, TUNINGS
+from .setting_info import SettingInfo as SettingInfo
+from .setting_info import check_value
+from .setting_info import setting_field as _setting
 
 
 @dataclass(frozen=True)
@@ -235,7 +210,7 @@ class DenoiseSettings:
 
     def __post_init__(self) -> None:
         for item in fields(self):
-            _check(item.metadata["info"], str(item.type), getattr(self, item.name))
+            check_value(item.metadata["info"], str(item.type), getattr(self, item.name))
 
     def with_changes(self, **changes: Any) -> DenoiseSettings:
         """Return a copy with some fields changed.
@@ -246,24 +221,6 @@ class DenoiseSettings:
             If a value is not allowed.
         """
         return replace(self, **changes)
-
-
-def _check(info: SettingInfo, kind: str, value: Any) -> None:
-    """Raise ValueError, with the value, unless it is allowed for this setting."""
-    label = f"{info.label} ({info.symbol})" if info.symbol else info.label
-    if info.choices:
-        names = [choice.identifier for choice in info.choices]
-        if value not in names:
-            raise ValueError(f"{label} is {value!r}; choose one of {', '.join(names)}.")
-        return
-    is_number = isinstance(value, Integral if kind == "int" else Real)
-    if not is_number or type(value) is bool:
-        raise ValueError(f"{label} is {value!r}; it must be a {'whole ' if kind == 'int' else ''}number.")
-    assert info.minimum is not None and info.maximum is not None
-    if not info.minimum <= value <= info.maximum:  # also refuses NaN
-        is_huge = isinstance(value, int) and abs(value) > sys.float_info.max
-        shown = "a huge number" if is_huge else f"{value:g}"
-        raise ValueError(f"{label} is {shown}; it must be between {info.minimum:g} and {info.maximum:g}.")
 
 
 class Preset(NamedTuple):

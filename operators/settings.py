@@ -9,6 +9,8 @@ from typing import Any
 import bpy
 
 from ..core.settings import DEFAULT_PRESET, PRESETS, DenoiseSettings, SettingInfo
+from .output import IN_PLACE, OUTPUTS
+from .region_settings import RegionMixin
 from .setting_values import CUSTOM, DEFINING, FRAME_NAMES, follow_preset, leave_preset
 
 FIELDS = {item.name: item for item in fields(DenoiseSettings)}
@@ -99,5 +101,17 @@ class LevelsMixin:
     __annotations__ = {"levels": setting_property(FIELDS["levels"])}
 
 
-class FrameletSettings(SettingsMixin, bpy.types.PropertyGroup):
+class OutputMixin:
+    """Where the result goes; for scene settings and operators. Not a part of presets."""
+
+    output: bpy.props.EnumProperty(
+        name="Output",
+        description="Where the denoised surface goes",
+        items=[tuple(choice) for choice in OUTPUTS],
+        default=IN_PLACE,
+        options=set(),
+    )
+
+
+class FrameletSettings(SettingsMixin, OutputMixin, RegionMixin, bpy.types.PropertyGroup):
     """The settings that the sidebar shows, stored with the scene."""

@@ -4,13 +4,26 @@
 
 from bpy.utils import register_classes_factory
 
-from . import band_panels, legend, menus, panel, preset_panel, report_panels, see_panel, translations
+from . import (
+    band_panels,
+    legend,
+    menus,
+    output_panel,
+    panel,
+    preset_panel,
+    region_panel,
+    report_panels,
+    see_panel,
+    translations,
+)
 
 # Subpanels are shown in this order.
 classes = (
     *preset_panel.classes,
     panel.VIEW3D_PT_framelet,
     *see_panel.classes,
+    *region_panel.classes,
+    *output_panel.classes,
     *band_panels.classes,
     panel.VIEW3D_PT_framelet_advanced,
     *report_panels.classes,

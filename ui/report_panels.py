@@ -12,6 +12,7 @@ from ..operators.add_noise import OBJECT_OT_framelet_add_noise
 from ..operators.compare import OBJECT_OT_framelet_compare
 from ..operators.estimate_noise import OBJECT_OT_framelet_estimate_noise
 from .layouts import FrameletPanel, draw_lengths, draw_value
+from .region_panel import draw_repairs
 
 
 class VIEW3D_PT_framelet_last_run(FrameletPanel, bpy.types.Panel):
@@ -36,6 +37,7 @@ class VIEW3D_PT_framelet_last_run(FrameletPanel, bpy.types.Panel):
         volume = f"{report.volume_change:+.2f} %"
         draw_value(column, "Volume", volume if report.is_closed else "Open mesh")
         draw_value(column, "Flipped Faces", f"{report.flipped_faces:,}")
+        draw_repairs(column, report)
         for label, name in (
             (n_("Irregular"), "irregular_vertices"),
             (n_("Boundary"), "boundary_vertices"),
