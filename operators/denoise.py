@@ -143,8 +143,8 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, RegionMixin, bpy.ty
         self.report(
             {"INFO"},
             rpt_(
-                "Denoised {names}: {moved:,} of {total:,} vertices moved, {length} RMS ({edges:.3f} edge lengths), "
-                "in {seconds:.2f} s"
+                "Denoised {names}: {moved:,} of {total:,} vertices moved, {length} RMS "
+                "({edges:.3f} edge lengths), in {seconds:.2f} s"
             ).format(
                 names=targets.names_text(list(measured)),
                 moved=report.n_moved,

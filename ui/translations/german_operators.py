@@ -8,6 +8,7 @@ NAMES = {
     "Analyze": "Zerlegen",
     "Angle Change": "Winkeländerung",
     "Before/After": "Vorher/Nachher",
+    "Cancel": "Abbrechen",
     "Clear Bands": "Bänder entfernen",
     "Compare": "Vergleichen",
     "Denoise": "Entrauschen",
