@@ -1,0 +1,80 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
+"""Run in the Blender with the window: does what the test asks for, between Blender's own work.
+
+    blender --python inside.py -- FOLDER
+
+A request is a file `FOLDER/<number>.py`. What its code leaves in `result` is written to `<number>.json`, or the
+traceback of an error.
+"""
+
+import json
+import os
+import sys
+import time
+import traceback
+
+import bpy
+
+FOLDER = sys.argv[sys.argv.index("--") + 1]
+PAUSE = 0.01
+"""Seconds between two looks at the folder."""
+
+ticks: list[float] = []
+"""When this timer ran: gaps are times in which Blender did not respond."""
+
+draws: list[float] = []
+"""When a 3D viewport was drawn."""
+
+scope: dict[str, object] = {"bpy": bpy, "ticks": ticks, "draws": draws}
+next_number = 0
+
+
+def window() -> bpy.types.Window:
+    """Return the window."""
+    return bpy.context.window_manager.windows[0]
+
+
+def view3d() -> bpy.types.Area:
+    """Return the largest 3D Viewport."""
+    areas = [area for area in window().screen.areas if area.type == "VIEW_3D"]
+    return max(areas, key=lambda area: area.width * area.height)
+
+
+def region(kind: str) -> bpy.types.Region:
+    """Return a region of the viewport: WINDOW, UI (the sidebar), HEADER..."""
+    return next(region for region in view3d().regions if region.type == kind)
+
+
+def override(kind: str = "WINDOW"):
+    """Return a context as it is with the mouse over a region of the viewport."""
+    return bpy.context.temp_override(
+        window=window(), screen=window().screen, area=view3d(), region=region(kind)
+    )
+
+
+def tick() -> float:
+    """Answer one request, if there is one."""
+    global next_number
+    ticks.append(time.monotonic())
+    path = os.path.join(FOLDER, f"{next_number}.py")
+    if os.path.exists(path):
+        answer = {}
+        scope.pop("result", None)
+        try:
+            with open(path, encoding="utf-8") as file:
+                exec(compile(file.read(), path, "exec"), scope)
+            answer = json.dumps({"result": scope.get("result")})
+        except BaseException:
+            answer = json.dumps({"error": traceback.format_exc()})
+        with open(os.path.join(FOLDER, f"{next_number}.part"), "w", encoding="utf-8") as file:
+            file.write(answer)
+        os.rename(os.path.join(FOLDER, f"{next_number}.part"), os.path.join(FOLDER, f"{next_number}.json"))
+        next_number += 1
+    return PAUSE
+
+
+scope.update(window=window, view3d=view3d, region=region, override=override)
+bpy.types.SpaceView3D.draw_handler_add(lambda: draws.append(time.monotonic()), (), "WINDOW", "POST_PIXEL")
+bpy.app.timers.register(tick, first_interval=0.5, persistent=True)
