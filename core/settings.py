@@ -56,7 +56,7 @@ class DenoiseSettings:
         On construction, in one sentence, if a value is out of range or not one of the choices.
     """
 
-    method: str = _setting("POSITIONS", "Method", "How the surface is cleaned", choices=METHODS)
+    method: str = _setting("POSITIONS", "Engine", "How the surface is cleaned", choices=METHODS)
     strength: float = _setting(
         1.0,
         "Strength",

@@ -9,7 +9,7 @@ from .band_settings import StoreMixin
 from .bands import analyze_object, clear_object, megabytes_text
 from .setting_values import as_typed
 from .settings import FrameMixin, LevelsMixin
-from .viewport import hide_vertex_colors
+from .viewport import hide_unused_colors
 
 
 class OBJECT_OT_framelet_analyze(FrameMixin, LevelsMixin, StoreMixin, bpy.types.Operator):
@@ -70,9 +70,6 @@ class OBJECT_OT_framelet_clear(bpy.types.Operator):
         done = targets.run_on_targets(self, context, lambda obj, _progress: clear_object(obj))
         if not done:
             return {"CANCELLED"}
-        meshes = [obj.data for obj in context.scene.objects if obj.type == "MESH"]
-        if not any(band_storage.has_colors(mesh) for mesh in meshes):
-            context.window_manager.framelet_band_range.names = ""
-            hide_vertex_colors(context)
+        hide_unused_colors(context)
         self.report({"INFO"}, f"Removed the bands of {targets.names_text(list(done))}")
         return {"FINISHED"}

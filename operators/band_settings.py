@@ -33,7 +33,42 @@ class StoreMixin:
     )
 
 
-class ShowMixin:
+class RangeMixin:
+    """Which values the colors cover."""
+
+    range_rule: EnumProperty(
+        name="Range",
+        description="Which values get the last colors of the map; values beyond look the same as those",
+        items=[
+            ("PERCENTILE", "Percentile", "All but the largest few, so that single spikes do not count"),
+            ("MAXIMUM", "Maximum", "The largest value"),
+            ("FIXED", "Fixed", "A length of your own, to compare several meshes or bands"),
+        ],
+        options=set(),
+    )
+    percentile: FloatProperty(
+        name="Percentile",
+        description="Share of the values within the range: larger makes it wider, and all colors paler",
+        default=98.0,
+        min=1.0,
+        max=100.0,
+        precision=1,
+        subtype="PERCENTAGE",
+        options=set(),
+    )
+    limit: FloatProperty(
+        name="Limit",
+        description="The value that gets the last color, in scene units: larger makes all colors paler",
+        default=0.01,
+        min=1e-9,
+        soft_max=1.0,
+        unit="LENGTH",
+        precision=4,
+        options=set(),
+    )
+
+
+class ShowMixin(RangeMixin):
     """Which band is shown, and which values the colors cover."""
 
     content: EnumProperty(
@@ -68,36 +103,6 @@ class ShowMixin:
             ("NORMAL", "Along Normal", "Component along the vertex normal: positive points outwards"),
             ("LENGTH", "Length", "Length of the vector, whatever its direction"),
         ],
-        options=set(),
-    )
-    range_rule: EnumProperty(
-        name="Range",
-        description="Which values get the last colors of the map; values beyond look the same as those",
-        items=[
-            ("PERCENTILE", "Percentile", "All but the largest few, so that single spikes do not count"),
-            ("MAXIMUM", "Maximum", "The largest value"),
-            ("FIXED", "Fixed", "A length of your own, to compare several meshes or bands"),
-        ],
-        options=set(),
-    )
-    percentile: FloatProperty(
-        name="Percentile",
-        description="Share of the vertices whose values are within the range",
-        default=98.0,
-        min=1.0,
-        max=100.0,
-        precision=1,
-        subtype="PERCENTAGE",
-        options=set(),
-    )
-    limit: FloatProperty(
-        name="Limit",
-        description="The value that gets the last color, in scene units",
-        default=0.01,
-        min=1e-9,
-        soft_max=1.0,
-        unit="LENGTH",
-        precision=4,
         options=set(),
     )
 

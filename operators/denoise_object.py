@@ -1,13 +1,17 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Denoise the mesh of one object: read, compute, write. No user interface."""
+"""Denoise the mesh of one object in three steps: read, compute, write. No user interface.
+
+Reading and writing belong to the main thread; `denoise_job.compute` between them may run on any.
+"""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
-from . import mesh_bridge
-from .preparations import preparations
+from . import mesh_bridge, run_memory
+from .denoise_job import DenoiseJob, DenoiseOutcome, MeasuredReport, compute
+from .scene_units import linear_part
 
 if TYPE_CHECKING:
     import bpy
@@ -16,14 +20,44 @@ if TYPE_CHECKING:
     from ..core.settings import DenoiseSettings
 
 
-class MeasuredReport(NamedTuple):
-    """A report, whose lengths are in object space, how far vertices moved and the noise in scene units."""
+def read_job(obj: bpy.types.Object, settings: DenoiseSettings) -> DenoiseJob:
+    """Read what a run needs of an object.
 
-    report: DenoiseReport
-    scene_rms: float
-    scene_max: float
-    scene_sigma: float
-    """Measured noise in scene units; 0 if it was not measured."""
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        A mesh object in Object Mode or Edit Mode.
+    settings : DenoiseSettings
+        What will be done.
+
+    Raises
+    ------
+    ValueError
+        With a sentence that names the object, if it cannot be edited or nothing is selected.
+    """
+    reason = mesh_bridge.refusal(obj)
+    if reason is not None:
+        raise ValueError(reason)
+    surface, movable = mesh_bridge.read_surface_and_movable(obj)
+    if movable is not None and not movable.any():
+        raise ValueError(f"‘{obj.name}’ has no selected vertices; select what should be denoised.")
+    return DenoiseJob(obj.name, surface, settings, linear_part(obj), movable)
+
+
+def write_outcome(obj: bpy.types.Object, job: DenoiseJob, outcome: DenoiseOutcome) -> None:
+    """Write what came of a job to the object that it was read from; a stopped run leaves it as it is.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        The object, with the mesh as it was read.
+    job : DenoiseJob
+        What `read_job` returned.
+    outcome : DenoiseOutcome
+        What `denoise_job.compute` made of it.
+    """
+    if not outcome.measured.report.is_stopped:
+        run_memory.write_and_remember(obj, job.surface, outcome.vertices)
 
 
 def denoise_object(
@@ -57,22 +91,7 @@ def denoise_and_measure(
     obj: bpy.types.Object, settings: DenoiseSettings, callback: Callback | None = None
 ) -> MeasuredReport:
     """Denoise as `denoise_object` does, and measure with the object's scale too."""
-    reason = mesh_bridge.refusal(obj)
-    if reason is not None:
-        raise ValueError(reason)
-    from ..core import denoise
-    from .scene_units import displacement_in_scene, length_in_scene
-
-    surface, movable = mesh_bridge.read_surface_and_movable(obj)
-    if movable is not None and not movable.any():
-        raise ValueError(f"‘{obj.name}’ has no selected vertices; select what should be denoised.")
-    try:
-        result = denoise(surface, settings, movable=movable, callback=callback, prepared=preparations())
-    except ValueError as error:
-        raise ValueError(f"‘{obj.name}’: {error}") from error
-    if not result.report.is_stopped:
-        mesh_bridge.write_vertices(obj, surface, result.vertices)
-    rms, maximum = displacement_in_scene(obj, surface.vertices, result.vertices)
-    noise = result.report.noise
-    sigma = 0.0 if noise is None else length_in_scene(obj, noise.sigma)
-    return MeasuredReport(result.report, rms, maximum, sigma)
+    job = read_job(obj, settings)
+    outcome = compute(job, callback)
+    write_outcome(obj, job, outcome)
+    return outcome.measured

@@ -8,6 +8,7 @@ the active key is what is read and edited, as in Blender's own Edit Mode. Nothin
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import bmesh
@@ -180,6 +181,25 @@ def write_vertices(obj: bpy.types.Object, before: SurfaceMesh, vertices: NDArray
         if reference in [active, *dependent]:
             _write_positions(mesh, _read_key_points(reference))
     mesh.update()
+
+
+def read_followers(obj: bpy.types.Object) -> dict[str, NDArray[np.float32]]:
+    """Return the points of the shape keys that `write_vertices` moves along with the active one, by name."""
+    keys = obj.data.shape_keys
+    if keys is None or obj.data.is_editmode:
+        return {}
+    return {key.name: _read_key_points(key) for key in _dependent_keys(keys, _active_key(obj))}
+
+
+def write_followers(obj: bpy.types.Object, points: Mapping[str, NDArray[np.float32]]) -> None:
+    """Write what `read_followers` returned, or some of it; the mesh itself follows the reference key."""
+    mesh, active = obj.data, _active_key(obj)
+    for name, positions in points.items():
+        key = mesh.shape_keys.key_blocks[name]
+        _write_key_points(key, positions)
+        if key == mesh.shape_keys.reference_key and key != active:
+            _write_positions(mesh, positions)
+            mesh.update()
 
 
 def _write_edit_mesh(mesh: bpy.types.Mesh, moved: NDArray[np.intp], vertices: NDArray[np.float32]) -> None:

@@ -7,12 +7,16 @@ A mesh is recognized by its arrays, value by value: after any edit it is prepare
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+from threading import Lock
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from ..core import PreparationCache
 
 _cache: PreparationCache | None = None
+_lock = Lock()
 
 
 def preparations() -> PreparationCache:
@@ -23,6 +27,13 @@ def preparations() -> PreparationCache:
 
         _cache = PreparationCache()
     return _cache
+
+
+@contextmanager
+def borrowed_preparations() -> Iterator[PreparationCache]:
+    """Give the cache to one run at a time: a run writes to what was prepared, so that others have to wait."""
+    with _lock:
+        yield preparations()
 
 
 def forget_preparations() -> None:

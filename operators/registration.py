@@ -10,11 +10,14 @@ from . import mesh_facts
 from .add_noise import OBJECT_OT_framelet_add_noise
 from .analyze import OBJECT_OT_framelet_analyze, OBJECT_OT_framelet_clear
 from .band_settings import FrameletBands, FrameletEqualizer
+from .before_after import OBJECT_OT_framelet_before_after
 from .command_line import blender_command
 from .compare import OBJECT_OT_framelet_compare
 from .denoise import OBJECT_OT_framelet_denoise
 from .equalize import OBJECT_OT_framelet_equalize
 from .estimate_noise import OBJECT_OT_framelet_estimate_noise
+from .heat_map import OBJECT_OT_framelet_heat_map, OBJECT_OT_framelet_hide_colors
+from .heat_settings import FrameletHeatMap
 from .preparations import forget_preparations
 from .report import (
     FrameletBandRange,
@@ -23,6 +26,7 @@ from .report import (
     FrameletNoise,
     FrameletReport,
 )
+from .run_memory import forget_runs
 from .settings import FrameletSettings
 from .show_band import OBJECT_OT_framelet_show_band
 from .synthesize import OBJECT_OT_framelet_synthesize
@@ -36,6 +40,7 @@ classes = (
     FrameletBandRange,
     FrameletBands,
     FrameletEqualizer,
+    FrameletHeatMap,
     OBJECT_OT_framelet_denoise,
     OBJECT_OT_framelet_estimate_noise,
     OBJECT_OT_framelet_add_noise,
@@ -45,12 +50,16 @@ classes = (
     OBJECT_OT_framelet_synthesize,
     OBJECT_OT_framelet_clear,
     OBJECT_OT_framelet_equalize,
+    OBJECT_OT_framelet_before_after,
+    OBJECT_OT_framelet_heat_map,
+    OBJECT_OT_framelet_hide_colors,
 )
 
 POINTERS = (
     (bpy.types.Scene, "framelet", FrameletSettings),
     (bpy.types.Scene, "framelet_bands", FrameletBands),
     (bpy.types.Scene, "framelet_equalizer", FrameletEqualizer),
+    (bpy.types.Scene, "framelet_heat_map", FrameletHeatMap),
     (bpy.types.WindowManager, "framelet_report", FrameletReport),
     (bpy.types.WindowManager, "framelet_estimate", FrameletEstimate),
     (bpy.types.WindowManager, "framelet_comparison", FrameletComparison),
@@ -65,6 +74,7 @@ _register_classes, _unregister_classes = register_classes_factory(classes)
 def _free_memory(*_: object) -> None:
     """Drop what was kept of the meshes of the file before."""
     forget_preparations()
+    forget_runs()
 
 
 def register() -> None:
@@ -80,7 +90,7 @@ def unregister() -> None:
     """Take everything away in reverse order."""
     blender_command.unregister()
     load_pre.remove(_free_memory)
-    forget_preparations()
+    _free_memory()
     for owner, name, _ in reversed(POINTERS):
         delattr(owner, name)
     mesh_facts.forget_facts()

@@ -6,9 +6,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import bpy
-
 if TYPE_CHECKING:
+    import bpy
     import numpy as np
     from numpy.typing import NDArray
 
@@ -25,12 +24,19 @@ def linear_part(obj: bpy.types.Object) -> NDArray[np.float64]:
 def displacement_in_scene(
     obj: bpy.types.Object, before: NDArray[np.floating], after: NDArray[np.floating]
 ) -> tuple[float, float]:
-    """Return how far the vertices of an object moved in the scene.
+    """Return how far the vertices of an object moved in the scene, as `displacement_by` does."""
+    return displacement_by(linear_part(obj), before, after)
+
+
+def displacement_by(
+    linear: NDArray[np.float64], before: NDArray[np.floating], after: NDArray[np.floating]
+) -> tuple[float, float]:
+    """Return how far vertices moved in the scene.
 
     Parameters
     ----------
-    obj : bpy.types.Object
-        Its scale counts, also where it differs between the axes.
+    linear : ndarray, shape (3, 3)
+        From `linear_part`; the scale counts, also where it differs between the axes.
     before, after : ndarray, shape (N, 3)
         Positions in object space.
 
@@ -42,23 +48,29 @@ def displacement_in_scene(
     import numpy as np
 
     moved = after.astype(np.float64) - before
-    squares = np.square(moved @ linear_part(obj).T).sum(axis=1)
+    squares = np.square(moved @ linear.T).sum(axis=1)
     return float(np.sqrt(squares.mean())), float(np.sqrt(squares.max()))
 
 
 def length_in_scene(obj: bpy.types.Object, length: float) -> float:
+    """Return a length of no particular direction in scene units, as `length_by` does."""
+    return length_by(linear_part(obj), length)
+
+
+def length_by(linear: NDArray[np.float64], length: float) -> float:
     """Return a length of no particular direction in scene units.
 
     Parameters
     ----------
-    obj : bpy.types.Object
-        Its scale counts; where it differs between the axes, as the root mean square over all directions.
+    linear : ndarray, shape (3, 3)
+        From `linear_part`; where the scale differs between the axes, the root mean square over all directions
+        counts.
     length : float
         In object space.
     """
     import numpy as np
 
-    return length * float(np.sqrt(np.square(linear_part(obj)).sum() / 3.0))
+    return length * float(np.sqrt(np.square(linear).sum() / 3.0))
 
 
 def surface_in_scene(obj: bpy.types.Object, surface: SurfaceMesh) -> SurfaceMesh:
@@ -79,6 +91,8 @@ def noise_text(scene: bpy.types.Scene, sigma: float, sigma_edges: float, is_impu
 
 def length_text(scene: bpy.types.Scene, length: float) -> str:
     """Return a length in words, in the units that the scene shows."""
+    import bpy
+
     units = scene.unit_settings
     if units.system == "NONE":
         return f"{length:.4g}"
@@ -90,3 +104,11 @@ def length_text(scene: bpy.types.Scene, length: float) -> str:
         split_unit=False,
         compatible_unit=False,
     )
+
+
+def value_text(scene: bpy.types.Scene, value: float, is_angle: bool) -> str:
+    """Return what a color stands for in words: a length with its sign, or an angle in degrees."""
+    if is_angle:
+        return f"{value:.4g}°"
+    # A true minus sign, as wide as a plus; Blender writes a hyphen.
+    return f"−{length_text(scene, -value)}" if value < 0.0 else length_text(scene, value)

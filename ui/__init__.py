@@ -4,9 +4,17 @@
 
 from bpy.utils import register_classes_factory
 
-from . import menus, panel
+from . import band_panels, menus, panel, report_panels
 
-_register_classes, _unregister_classes = register_classes_factory(panel.classes)
+# Subpanels are shown in this order.
+classes = (
+    panel.VIEW3D_PT_framelet,
+    *band_panels.classes,
+    panel.VIEW3D_PT_framelet_advanced,
+    *report_panels.classes,
+)
+
+_register_classes, _unregister_classes = register_classes_factory(classes)
 
 
 def register() -> None:

@@ -4,12 +4,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from time import perf_counter
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from ..automatic.filter import automatic_filter
+from ..blocks import Stopped
 from ..memory import check_memory
 from ..noise import NoiseEstimate, estimate_noise
 from ..normals.filter import normal_filter
@@ -23,7 +25,7 @@ from .bilateral import bilateral_filter
 from .constraints import find_constraints
 from .preparation_cache import PreparationCache
 from .prepared import Prepared, prepare
-from .report import Callback, DenoiseReport, DenoiseResult
+from .report import Callback, DenoiseReport, DenoiseResult, stopped_report
 from .split_bregman import split_bregman
 from .tuning import tuned
 
@@ -35,6 +37,7 @@ def denoise(
     movable: NDArray[np.bool_] | None = None,
     connectivity: Connectivity | None = None,
     callback: Callback | None = None,
+    should_stop: Callable[[], bool] | None = None,
     dtype: DTypeLike = np.float32,
     prepared: Prepared | PreparationCache | None = None,
 ) -> DenoiseResult:
@@ -52,6 +55,9 @@ def denoise(
         Neighborhoods of the mesh, if they are known already.
     callback : callable, optional
         `callback(fraction, change) -> bool` after each iteration; see `report.Callback`.
+    should_stop : callable, optional
+        `should_stop() -> bool`, asked many times a second on the calling thread, also while the mesh is
+        prepared and the noise measured; True stops.
     dtype : dtype, optional
         Precision of the solver: float32 for speed, float64 for exactness.
     prepared : Prepared or PreparationCache, optional
@@ -61,7 +67,8 @@ def denoise(
     Returns
     -------
     DenoiseResult
-        Positions in the dtype of the input; vertices that did not move have the same bits.
+        Positions in the dtype of the input; vertices that did not move have the same bits. If `callback`
+        stopped the run they are what was reached, if `should_stop` did, the input.
 
     Raises
     ------
@@ -82,17 +89,39 @@ def denoise(
         _check_movable(movable, surface.n_vertices)
     dtype = np.dtype(dtype)
     check_memory(surface.n_vertices, surface.n_corners, settings)
+    try:
+        return _denoise(
+            surface, settings, movable, connectivity, callback, should_stop, dtype, prepared, began
+        )
+    except Stopped:
+        return DenoiseResult(
+            surface.vertices.copy(), stopped_report(surface, settings, perf_counter() - began)
+        )
+
+
+def _denoise(
+    surface: SurfaceMesh,
+    settings: DenoiseSettings,
+    movable: NDArray[np.bool_] | None,
+    connectivity: Connectivity | None,
+    callback: Callback | None,
+    should_stop: Callable[[], bool] | None,
+    dtype: np.dtype,
+    prepared: Prepared | PreparationCache | None,
+    began: float,
+) -> DenoiseResult:
+    """Denoise with checked arguments; raises `Stopped` where `should_stop` says so."""
     if isinstance(prepared, PreparationCache):
-        prepared = prepared.prepare(surface, settings, dtype)
+        prepared = prepared.prepare(surface, settings, dtype, should_stop)
     elif prepared is None:
-        prepared = prepare(surface, settings, connectivity=connectivity, dtype=dtype)
+        prepared = prepare(surface, settings, connectivity=connectivity, dtype=dtype, should_stop=should_stop)
     elif not prepared.fits(surface, settings, dtype):
         raise ValueError("This was prepared for another mesh or other stencils; prepare it again.")
     ordered, noisy, reordering = prepared.ordered, prepared.noisy, prepared.reordering
     connectivity = prepared.connectivity
     if movable is not None and reordering is not None:
         movable = movable[reordering.vertex_order]
-    with prepared.blocks.with_threads(settings.threads) as blocks:
+    with prepared.blocks.with_threads(settings.threads).stopped_by(should_stop) as blocks:
         constraints = find_constraints(ordered, connectivity, settings, movable, dtype, prepared.corners)
         noise: NoiseEstimate | None = None
         recipe = ""

@@ -5,21 +5,22 @@
 import re
 
 import bpy
+import framelet.ui
 import pytest
 from framelet.core.settings import PRESETS
 from framelet.operators import band_settings, mesh_facts, setting_values
-from framelet.ui import band_panels, menus, panel
+from framelet.ui import band_panels, menus, panel, report_panels
 
 
 class Layout:
     """Records what a panel draws, checking that properties and operators exist."""
 
-    def __init__(self, record=None):
+    def __init__(self, record=None, active=True):
         self.record = record or {"prop": [], "label": [], "operator": [], "icon": [], "grayed": []}
-        self.active = True
+        self.active = active
 
     def row(self, **_options):
-        return Layout(self.record)
+        return Layout(self.record, self.active)
 
     column = split = row
 
@@ -38,6 +39,8 @@ class Layout:
 
     def label(self, text="", icon="NONE"):
         self.record["label"].append(text)
+        if not self.active:
+            self.record["grayed"].append(text)
         if icon != "NONE":
             self.record["icon"].append((text, icon))
 
@@ -59,11 +62,13 @@ def draw(panel_class):
 
 
 def test_panels_are_registered_in_one_tab():
-    for each in panel.classes:
+    panels = [each for each in framelet.ui.classes if issubclass(each, bpy.types.Panel)]
+    for each in panels:
         assert each.is_registered
         assert (each.bl_category, each.bl_region_type, each.bl_space_type) == ("Framelet", "UI", "VIEW_3D")
         assert each.bl_label
-    parents = [each for each in panel.classes if not hasattr(each, "bl_parent_id")]
+        assert each is panel.VIEW3D_PT_framelet or each.bl_options == {"DEFAULT_CLOSED"}
+    parents = [each for each in panels if not hasattr(each, "bl_parent_id")]
     assert parents == [panel.VIEW3D_PT_framelet]
 
 
@@ -81,7 +86,7 @@ def test_the_button_carries_the_scene_settings():
     scene_settings.preset = "TRI_1"
     scene_settings.mu = 4.0
     record = draw(panel.VIEW3D_PT_framelet)
-    assert record["operator"] == ["object.framelet_denoise", "object.framelet_estimate_noise"]
+    assert record["operator"] == ["object.framelet_denoise"]
     values = record["object.framelet_denoise"]
     assert (values.preset, values.mu) == ("TRI_1", 4.0)
 
@@ -96,10 +101,10 @@ def test_menu_entries_carry_the_scene_settings():
 
 
 def test_last_run_before_and_after():
-    assert draw(panel.VIEW3D_PT_framelet_last_run)["label"] == ["Nothing was denoised yet"]
+    assert draw(report_panels.VIEW3D_PT_framelet_last_run)["label"] == ["Nothing was denoised yet"]
     bpy.ops.mesh.primitive_monkey_add()
     bpy.ops.object.framelet_denoise()
-    labels = draw(panel.VIEW3D_PT_framelet_last_run)["label"]
+    labels = draw(report_panels.VIEW3D_PT_framelet_last_run)["label"]
     assert "Suzanne" in labels and "Open mesh" in labels
     assert re.fullmatch(r"[\d.]+ cm", labels[labels.index("RMS") + 1])
     assert re.fullmatch(r"\d+\.\d{3} edge lengths", labels[labels.index("RMS") + 3])
@@ -107,14 +112,39 @@ def test_last_run_before_and_after():
     assert labels[labels.index("Chosen") + 1] == recipe != ""
     assert re.fullmatch(r"[\d.]+ c?m", labels[labels.index("Noise") + 1])
     bpy.ops.object.framelet_denoise(preset="TRI_2")
-    labels = draw(panel.VIEW3D_PT_framelet_last_run)["label"]
+    labels = draw(report_panels.VIEW3D_PT_framelet_last_run)["label"]
     assert not {"Noise", "Chosen", "From Noise"} & set(labels)
+
+
+CHOSEN = ["Chosen", "Frame", "Levels", "Smoothing λ", "Penalty μ"]
+
+
+def table(labels):
+    """Return the rows of a table that was drawn as label, value, label, value."""
+    return dict(zip(labels[::2], labels[1::2], strict=True))
 
 
 def test_the_automatic_panel_is_calm():
     shown = draw(panel.VIEW3D_PT_framelet)
     assert shown["prop"] == ["preset", "method", "strength"]
-    assert shown["label"] == []
+    assert table(shown["label"]) == dict(zip(CHOSEN, ["At the next run", "–", "–", "–", "–"], strict=True))
+
+
+def test_the_automatic_panel_shows_grayed_what_the_run_chose():
+    bpy.ops.mesh.primitive_monkey_add()
+    bpy.ops.object.framelet_add_noise(sigma=0.1)
+    bpy.ops.object.framelet_denoise()
+    shown = draw(panel.VIEW3D_PT_framelet)
+    entry = bpy.context.window_manager.framelet_estimate.objects["Suzanne"]
+    rows = table(shown["label"])
+    assert list(rows) == CHOSEN and shown["grayed"] == shown["label"]
+    assert rows["Chosen"] == bpy.context.window_manager.framelet_report.recipe != ""
+    names = ("frame", "levels", "lambda", "mu")
+    assert [rows[label] or "–" for label in CHOSEN[1:]] == [
+        getattr(entry, f"chosen_{name}") or "–" for name in names
+    ]
+    bpy.ops.mesh.primitive_cube_add()
+    assert table(draw(panel.VIEW3D_PT_framelet)["label"])["Chosen"] == "At the next run"
 
 
 @pytest.mark.parametrize("tuning", ["GIVEN", "NOISE"])
@@ -123,34 +153,47 @@ def test_what_comes_from_the_noise_is_grayed(tuning):
     settings.preset, settings.tuning = "POSITIONS", tuning
     record = draw(panel.VIEW3D_PT_framelet)
     assert record["prop"][:3] == ["preset", "method", "tuning"]
-    assert record["grayed"] == (["lambda_", "mu", "iterations"] if tuning == "NOISE" else [])
+    is_tuned = tuning == "NOISE"
+    grayed = ["lambda_", "mu", "Smoothing λ", "–", "Penalty μ", "–"]
+    assert record["grayed"] == (grayed if is_tuned else [])
+    assert ("iterations" in draw(panel.VIEW3D_PT_framelet_advanced)["grayed"]) == is_tuned
     settings.preset = "BILATERAL"
     settings.tuning = tuning
     assert draw(panel.VIEW3D_PT_framelet)["grayed"] == []
 
 
+def test_what_the_noise_gave_is_shown():
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=4)
+    bpy.ops.object.framelet_add_noise(sigma=0.2)
+    settings = bpy.context.scene.framelet
+    settings.preset, settings.tuning = "POSITIONS", "NOISE"
+    bpy.ops.object.framelet_denoise(preset="POSITIONS", tuning="NOISE")
+    rows = table(draw(panel.VIEW3D_PT_framelet)["label"])
+    given = bpy.context.window_manager.framelet_report.parameters
+    assert given == f"λ {rows['Smoothing λ']}, μ {rows['Penalty μ']}"
+
+
 def test_the_noise_of_the_active_object_is_shown_once_it_is_measured():
     bpy.ops.mesh.primitive_monkey_add()
     bpy.ops.object.framelet_add_noise(sigma=0.1)
-    assert draw(panel.VIEW3D_PT_framelet)["label"] == []
+    record = draw(report_panels.VIEW3D_PT_framelet_noise)
+    assert record["operator"] == ["object.framelet_estimate_noise"] and record["label"] == []
     bpy.ops.object.framelet_estimate_noise()
-    labels = draw(panel.VIEW3D_PT_framelet)["label"]
-    assert labels[0] == "Noise" and "Chosen" not in labels
+    labels = draw(report_panels.VIEW3D_PT_framelet_noise)["label"]
+    assert labels[0] == "Noise"
     assert re.fullmatch(r"[\d.]+ c?m", labels[1])
     assert re.fullmatch(r"\d\.\d{3} edge lengths", labels[3])
+    assert table(draw(panel.VIEW3D_PT_framelet)["label"])["Chosen"] == "At the next run"
     bpy.ops.object.framelet_denoise()
-    labels = draw(panel.VIEW3D_PT_framelet)["label"]
-    recipe = bpy.context.window_manager.framelet_report.recipe
-    assert labels[0] == "Noise Before" and labels[labels.index("Chosen") + 1] == recipe
+    assert draw(report_panels.VIEW3D_PT_framelet_noise)["label"][0] == "Noise Before"
     entry = bpy.context.window_manager.framelet_estimate.objects["Suzanne"]
     for is_impulsive in (True, False):
         entry.is_impulsive = is_impulsive
-        assert ("Impulsive" in draw(panel.VIEW3D_PT_framelet)["label"]) == is_impulsive
+        assert ("Impulsive" in draw(report_panels.VIEW3D_PT_framelet_noise)["label"]) == is_impulsive
     bpy.context.scene.framelet.preset = "TRI_2"
-    assert "Chosen" not in draw(panel.VIEW3D_PT_framelet)["label"]
-    bpy.context.scene.framelet.preset = "AUTO"
-    bpy.ops.mesh.primitive_cube_add()
     assert draw(panel.VIEW3D_PT_framelet)["label"] == []
+    bpy.ops.mesh.primitive_cube_add()
+    assert draw(report_panels.VIEW3D_PT_framelet_noise)["label"] == []
 
 
 def test_lengths_follow_the_units_of_the_scene():
@@ -158,7 +201,7 @@ def test_lengths_follow_the_units_of_the_scene():
     bpy.ops.object.framelet_denoise()
 
     def rms():
-        labels = draw(panel.VIEW3D_PT_framelet_last_run)["label"]
+        labels = draw(report_panels.VIEW3D_PT_framelet_last_run)["label"]
         return labels[labels.index("RMS") + 1]
 
     units = bpy.context.scene.unit_settings
@@ -176,13 +219,13 @@ def test_volume_of_closed_meshes_and_number_of_objects():
     bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=2)
     first.select_set(True)
     bpy.ops.object.framelet_denoise()
-    labels = draw(panel.VIEW3D_PT_framelet_last_run)["label"]
+    labels = draw(report_panels.VIEW3D_PT_framelet_last_run)["label"]
     assert labels[labels.index("Objects") + 1] == "2"
     assert re.fullmatch(r"-\d+\.\d{2} %", labels[labels.index("Volume") + 1])
 
 
 def test_try_it_before_and_after():
-    record = draw(panel.VIEW3D_PT_framelet_try_it)
+    record = draw(report_panels.VIEW3D_PT_framelet_try_it)
     assert record["operator"] == ["object.framelet_add_noise", "object.framelet_compare"]
     assert record["label"] == []
     bpy.ops.mesh.primitive_monkey_add()
@@ -191,7 +234,7 @@ def test_try_it_before_and_after():
     bpy.ops.object.framelet_add_noise()
     first.select_set(True)
     bpy.ops.object.framelet_compare()
-    labels = draw(panel.VIEW3D_PT_framelet_try_it)["label"]
+    labels = draw(report_panels.VIEW3D_PT_framelet_try_it)["label"]
     assert {"Suzanne", "Suzanne.001", "Mean Angle"} <= set(labels)
 
 
