@@ -23,6 +23,17 @@ START_SECONDS = 120.0
 PATIENCE = 60.0
 """Seconds to wait for an answer, at most."""
 
+BOX = """
+r = region(kind)
+result = [r.x, r.y, r.width, r.height]
+if kind == "WINDOW":
+    tools, sidebar = region("TOOLS"), region("UI")
+    left = max(r.x, tools.x + tools.width) if tools.width > 1 else r.x
+    right = min(r.x + r.width, sidebar.x) if sidebar.width > 1 else r.x + r.width
+    top = min(other.y for other in (region("HEADER"), region("TOOL_HEADER")))
+    result = [left, r.y, right - left, top - r.y]
+"""
+
 
 class BlenderFailed(Exception):
     """Blender ended, did not answer, or raised an error."""
@@ -216,8 +227,11 @@ class Session:
         return read_screen(self.folder / "Xvfb_screen0")
 
     def box(self, kind: str = "WINDOW") -> tuple[int, int, int, int]:
-        """Return left, bottom, width and height of a region of the viewport, in pixels."""
-        return tuple(self.run("r = region(kind)\nresult = [r.x, r.y, r.width, r.height]", kind=kind))
+        """Return left, bottom, width and height of a region of the viewport, in pixels.
+
+        WINDOW is what the other regions do not cover.
+        """
+        return tuple(self.run(BOX, kind=kind))
 
     def part(self, kind: str = "WINDOW") -> np.ndarray:
         """Return what is on the screen in a region of the viewport."""

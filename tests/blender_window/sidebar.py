@@ -9,7 +9,7 @@ from .session import BlenderFailed, Session
 
 UNDER_MOUSE = """
 result = ""
-with override("UI"):
+with override(kind):
     prop = bpy.context.property
     if prop is not None:
         result = prop[1]
@@ -42,12 +42,12 @@ def open_sidebar(session: Session) -> None:
     session.settle(0.5)
 
 
-def under_mouse(session: Session) -> str:
-    """Return which operator or property the mouse is over; empty if none."""
-    return session.run(UNDER_MOUSE).removeprefix("bpy.ops.")
+def under_mouse(session: Session, kind: str = "UI") -> str:
+    """Return which operator or property of a region the mouse is over; empty if none."""
+    return session.run(UNDER_MOUSE, kind=kind).removeprefix("bpy.ops.")
 
 
-def find(session: Session, name: str, across: float = 0.6) -> tuple[int, int]:
+def find(session: Session, name: str, kind: str = "UI", across: float = 0.6) -> tuple[int, int]:
     """Return the place of the button of an operator or property, looked for from the top.
 
     Parameters
@@ -56,6 +56,8 @@ def find(session: Session, name: str, across: float = 0.6) -> tuple[int, int]:
         Whose sidebar is open.
     name : str
         As in `object.framelet_denoise` or `framelet.preset`.
+    kind : str
+        The region: UI, the sidebar, or HUD, where the last operation is adjusted.
     across : float
         Where to look, from the left (0) to the right (1) of the sidebar.
 
@@ -64,21 +66,37 @@ def find(session: Session, name: str, across: float = 0.6) -> tuple[int, int]:
     BlenderFailed
         If it is not there.
     """
-    x, y, width, height = session.box("UI")
+    x, y, width, height = session.box(kind)
     step = int(STEP * session.scale)
     seen = []
     left = x + int(across * width)
     for bottom in range(y + height - step, y, -step):
         session.move((left, bottom))
-        found = under_mouse(session)
+        found = under_mouse(session, kind)
         if found == name:
-            # Into the middle of the button, whose upper edge this is.
-            return left, bottom - step // 3
+            # Towards the middle of the button, whose upper edge this is; and not an answer that came too late.
+            place = left, bottom - step // 3
+            session.move(place)
+            session.settle(0.1)
+            if under_mouse(session, kind) == name:
+                return place
         if found and found not in seen:
             seen.append(found)
-    raise BlenderFailed(f"{name} is not in the sidebar, which has {', '.join(seen)}.")
+    raise BlenderFailed(f"{name} is not in the region {kind}, which has {', '.join(seen)}.")
 
 
 def press(session: Session, name: str, seconds: float = 0.3) -> None:
     """Click the button of an operator or property."""
     session.click(find(session, name), seconds=seconds)
+
+
+def type_into(session: Session, place: tuple[int, int], text: str) -> None:
+    """Double-click a number and type another one."""
+    for value in ("PRESS", "RELEASE"):
+        session.event("LEFTMOUSE", value, place)
+    session.event("LEFTMOUSE", "DOUBLE_CLICK", place)
+    session.event("LEFTMOUSE", "RELEASE", place)
+    session.settle()
+    session.key("A", ctrl=True)
+    session.type_text(text)
+    session.key("RET", 0.5)

@@ -53,6 +53,7 @@ def desk(session, request):
     session.settle(0.5)
     session.run(EMPTY)
     open_sidebar(session)
+    session.move(session.middle())
     yield session
     if PICTURES:
         Path(PICTURES).mkdir(parents=True, exist_ok=True)
