@@ -7,6 +7,7 @@ import bpy
 from . import targets
 from .denoise_object import denoise_and_measure
 from .filled_reports import fill_estimate_of_run, fill_report
+from .heat_map import refresh_heat
 from .report import FrameletReport
 from .scene_units import length_text, noise_text
 from .setting_values import PROPERTY_NAMES, fill, has_effect, is_replaced, to_settings
@@ -52,6 +53,7 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, bpy.types.Operator):
         report = context.window_manager.framelet_report
         fill_report(report, measured)
         fill_estimate_of_run(context.window_manager.framelet_estimate, measured)
+        refresh_heat(context, [bpy.data.objects[name] for name in measured])
         self.report(
             {"INFO"},
             f"Denoised {targets.names_text(list(measured))}: {report.n_moved:,} of {report.n_vertices:,} "

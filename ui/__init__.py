@@ -1,29 +1,33 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What users see: panels and menu entries."""
+"""What users see: panels, menu entries and the legend."""
 
 from bpy.utils import register_classes_factory
 
-from . import band_panels, menus, panel, report_panels
+from . import band_panels, legend, menus, panel, report_panels, see_panel
 
 # Subpanels are shown in this order.
 classes = (
     panel.VIEW3D_PT_framelet,
+    *see_panel.classes,
     *band_panels.classes,
     panel.VIEW3D_PT_framelet_advanced,
     *report_panels.classes,
+    *menus.classes,
 )
 
 _register_classes, _unregister_classes = register_classes_factory(classes)
 
 
 def register() -> None:
-    """Register the panels, then the menu entries."""
+    """Register the panels, then the menu entries and the legend."""
     _register_classes()
     menus.register()
+    legend.register()
 
 
 def unregister() -> None:
     """Take everything away in reverse order."""
+    legend.unregister()
     menus.unregister()
     _unregister_classes()

@@ -111,7 +111,8 @@ def _draw_stored(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
 def _draw_range(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bpy.types.Object) -> None:
     """Draw what the colors of an object mean, if that is known."""
     shown = context.window_manager.framelet_band_range
-    if obj.name not in shown.names.split(", ") or not band_storage.has_colors(obj.data):
+    is_shown = not shown.quantity and band_storage.COLORS in obj.data.attributes
+    if not is_shown or obj.name not in shown.names.split(", "):
         return
     column = layout.column(align=True)
     draw_value(column, "Colors", shown.title)

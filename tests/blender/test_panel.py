@@ -6,59 +6,12 @@ import re
 
 import bpy
 import framelet.ui
+import meshes
 import pytest
+from drawing import draw
 from framelet.core.settings import PRESETS
 from framelet.operators import band_settings, mesh_facts, setting_values
-from framelet.ui import band_panels, menus, panel, report_panels
-
-
-class Layout:
-    """Records what a panel draws, checking that properties and operators exist."""
-
-    def __init__(self, record=None, active=True):
-        self.record = record or {"prop": [], "label": [], "operator": [], "icon": [], "grayed": []}
-        self.active = active
-
-    def row(self, **_options):
-        return Layout(self.record, self.active)
-
-    column = split = row
-
-    def separator(self):
-        pass
-
-    def prop(self, data, name, **_options):
-        assert name in data.bl_rna.properties
-        self.record["prop"].append(name)
-        if not self.active:
-            self.record["grayed"].append(name)
-
-    def prop_search(self, data, name, source, collection, **_options):
-        assert collection in source.bl_rna.properties
-        self.prop(data, name)
-
-    def label(self, text="", icon="NONE"):
-        self.record["label"].append(text)
-        if not self.active:
-            self.record["grayed"].append(text)
-        if icon != "NONE":
-            self.record["icon"].append((text, icon))
-
-    def operator(self, idname, **_options):
-        group, name = idname.split(".")
-        assert getattr(bpy.types, f"{group.upper()}_OT_{name}").bl_rna
-        self.record["operator"].append(idname)
-        values = type("Values", (), {"preset": None})()
-        self.record["values"] = values
-        self.record[idname] = values
-        return values
-
-
-def draw(panel_class):
-    """Call a panel's draw with a recording layout."""
-    layout = Layout()
-    panel_class.draw(type("Panel", (), {"layout": layout})(), bpy.context)
-    return layout.record
+from framelet.ui import band_panels, panel, report_panels, see_panel
 
 
 def test_panels_are_registered_in_one_tab():
@@ -89,15 +42,6 @@ def test_the_button_carries_the_scene_settings():
     assert record["operator"] == ["object.framelet_denoise"]
     values = record["object.framelet_denoise"]
     assert (values.preset, values.mu) == ("TRI_1", 4.0)
-
-
-def test_menu_entries_carry_the_scene_settings():
-    bpy.context.scene.framelet.preset = "BILATERAL"
-    record = draw(type("Menu", (), {"draw": menus._draw_denoise}))
-    assert record["values"].preset == "BILATERAL"
-    for name in menus.MENU_NAMES:
-        drawers = getattr(bpy.types, name)._dyn_ui_initialize()
-        assert menus._draw_denoise in drawers
 
 
 def test_last_run_before_and_after():
@@ -377,3 +321,39 @@ def test_advanced_says_which_frames_do_not_fit():
         assert shown == [(f"Not for this mesh: frames for {kind}", "INFO")]
     bpy.context.scene.framelet.method = "NORMALS"
     assert draw(panel.VIEW3D_PT_framelet_advanced)["icon"] == []
+
+
+def test_what_a_run_changed_is_shown_by_buttons_that_stay_pressed(make_object, rng):
+    name = "object.framelet_{}".format
+    obj = make_object(meshes.noisy(meshes.triangle_torus(), rng), "Torus")
+    record = draw(see_panel.VIEW3D_PT_framelet_see)
+    expected = [name("before_after"), name("heat_map"), name("heat_map")]
+    assert record["operator"] == expected and record["pressed"] == []
+    bpy.ops.object.framelet_denoise(preset="TRI_2")
+    for quantity, first in (("NORMAL", True), ("ANGLE", False)):
+        bpy.ops.object.framelet_heat_map(quantity=quantity)
+        record = draw(see_panel.VIEW3D_PT_framelet_see)
+        both = [name("hide_colors"), name("heat_map")] if first else [name("heat_map"), name("hide_colors")]
+        assert record["operator"] == [name("before_after"), *both]
+        assert record["pressed"] == [name("hide_colors")]
+        assert record[name("heat_map")].quantity == ("ANGLE" if first else "NORMAL")
+    obj.data.attributes.active_color_name = ""
+    assert draw(see_panel.VIEW3D_PT_framelet_see)["pressed"] == []
+    bpy.ops.mesh.primitive_cube_add()
+    assert draw(see_panel.VIEW3D_PT_framelet_see)["pressed"] == []
+
+
+@pytest.mark.parametrize("rule", ["PERCENTILE", "MAXIMUM", "FIXED"])
+def test_the_heat_map_takes_the_range_of_the_scene(make_object, rng, rule):
+    make_object(meshes.noisy(meshes.triangle_torus(), rng), "Torus")
+    bpy.ops.object.framelet_denoise(preset="TRI_2")
+    heat = bpy.context.scene.framelet_heat_map
+    heat.range_rule, heat.percentile, heat.limit = rule, 77.0, 0.5
+    more = {"PERCENTILE": ["percentile"], "MAXIMUM": [], "FIXED": ["limit"]}[rule]
+    record = draw(see_panel.VIEW3D_PT_framelet_see)
+    assert record["prop"] == ["range_rule", *more]
+    values = record["object.framelet_heat_map"]
+    assert (values.range_rule, values.percentile, values.limit) == (rule, 77.0, 0.5)
+    bpy.ops.object.framelet_heat_map(quantity="ANGLE")
+    more = ["limit_angle"] if rule == "FIXED" else more
+    assert draw(see_panel.VIEW3D_PT_framelet_see)["prop"] == ["range_rule", *more]
