@@ -5,6 +5,9 @@
 
 from __future__ import annotations
 
+import numpy as np
+
+from .pixels import changed_box
 from .session import BlenderFailed, Session
 
 STEP = 9
@@ -19,20 +22,30 @@ def entry_under_mouse(session: Session) -> str:
     return copied.partition("(")[0].removeprefix("bpy.ops.") if copied.startswith("bpy.ops.") else ""
 
 
-def find_entry(session: Session, name: str, left: int, top: int, bottom: int) -> tuple[int, int]:
-    """Return the place of an entry of the open menu, looked for downwards between two heights.
+def find_entry(session: Session, name: str, before: np.ndarray) -> tuple[int, int]:
+    """Return the place of an entry of the open menu, looked for from its top.
+
+    Parameters
+    ----------
+    session : Session
+        Where a menu is open.
+    name : str
+        As in `object.framelet_denoise`.
+    before : ndarray, shape (height, width, 3)
+        What was on the screen before the menu was opened: the menu is where that has changed.
 
     Raises
     ------
     BlenderFailed
         If it is not there.
     """
+    left, bottom, width, height = changed_box(before, session.picture())
     seen = []
-    for y in range(top, bottom, -int(STEP * session.scale)):
-        session.move((left, y))
+    for y in range(bottom + height, bottom, -int(STEP * session.scale)):
+        session.move((left + width // 2, y))
         found = entry_under_mouse(session)
         if found == name:
-            return left, y
+            return left + width // 2, y
         if found and found not in seen:
             seen.append(found)
     raise BlenderFailed(f"{name} is not in the menu, which has {', '.join(seen)}.")

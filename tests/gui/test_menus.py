@@ -3,7 +3,6 @@
 
 """Where else people look: menus, search, right click."""
 
-import pytest
 from blender_window.menus import find_entry
 
 CALL = """
@@ -24,38 +23,36 @@ with override():
 """
 
 
-def use_entry(session, place):
-    """Click the entry Denoise of the open menu, which has the place in it, and wait for the mesh to change."""
-    before = session.run(NOISY)
+def use_entry(session, before):
+    """Click the entry Denoise of the menu that was opened since a picture was taken."""
     session.settle(0.5)
-    entry = find_entry(session, "object.framelet_denoise", place[0] + 20, session.size[1] - 10, 10)
-    session.click(entry)
-    return before
+    session.click(find_entry(session, "object.framelet_denoise", before))
 
 
-@pytest.mark.parametrize("name", ["VIEW3D_MT_object"])
-def test_menu_of_object_mode(ball, name):
-    ball.move(ball.middle())
-    ball.run(CALL, name=name)
-    before = use_entry(ball, ball.middle())
-    ball.wait_for(f"digest('Ball') != {before!r}")
+def test_menu_of_object_mode(ball):
+    noisy, before = ball.run(NOISY), ball.picture()
+    ball.run(CALL, name="VIEW3D_MT_object")
+    use_entry(ball, before)
+    ball.wait_for(f"digest('Ball') != {noisy!r}")
 
 
 def test_menu_of_edit_mode(ball):
+    noisy = ball.run(NOISY)
     ball.run(EDIT)
-    ball.move(ball.middle())
+    ball.settle()
+    before = ball.picture()
     ball.run(CALL, name="VIEW3D_MT_edit_mesh_clean")
-    before = use_entry(ball, ball.middle())
-    ball.settle(3.0)
+    use_entry(ball, before)
+    ball.wait_for("bpy.context.window_manager.framelet_report.n_moved == 2562")
     ball.run(LEAVE)
-    ball.wait_for(f"digest('Ball') != {before!r}")
+    assert ball.run(NOISY) != noisy
 
 
 def test_right_click(ball):
-    place = ball.middle()
-    ball.click(place, "RIGHTMOUSE")
-    before = use_entry(ball, place)
-    ball.wait_for(f"digest('Ball') != {before!r}")
+    noisy, before = ball.run(NOISY), ball.picture()
+    ball.click(ball.middle(), "RIGHTMOUSE")
+    use_entry(ball, before)
+    ball.wait_for(f"digest('Ball') != {noisy!r}")
 
 
 def test_search(ball):

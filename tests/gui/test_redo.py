@@ -6,17 +6,13 @@
 from blender_window.pixels import changed
 from blender_window.sidebar import find, press, type_into
 
-FRESH = """
-with override():
-    bpy.ops.object.framelet_denoise(strength=0.0)
-"""
-
 
 def test_adjusting_runs_again_from_the_original(ball):
     noisy = ball.run("result = digest('Ball')")
     press(ball, "object.framelet_denoise")
     ball.wait_for(f"digest('Ball') != {noisy!r}")
     ball.settle(1.0)
+    ball.click(ball.middle("HUD"), seconds=1.0)
     place = find(ball, "strength", "HUD", across=0.7)
     type_into(ball, place, "0")
     # Strength 0 changes nothing, whatever was done before.
