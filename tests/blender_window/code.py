@@ -4,9 +4,19 @@
 """Code that tests run in Blender: meshes, their positions, and a fresh start."""
 
 RESET = """
+import sys
+interface = next(module for name, module in sys.modules.items() if name.endswith(".framelet.ui"))
+interface.unregister()
+for panel in bpy.types.Panel.__subclasses__():
+    if panel.__name__.startswith("VIEW3D_PT_framelet_"):
+        options = vars(panel).get("options_at_first", set(panel.bl_options) if hasattr(panel, "bl_options") else set())
+        panel.options_at_first = options
+        panel.bl_options = options - {"DEFAULT_CLOSED"} if panel.__name__ in unfolded else options
+interface.register()
 with bpy.context.temp_override(window=window()):
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=False)
 """
+"""Which subpanels are open is a matter of their options, until Blender has drawn them for the first time."""
 
 EMPTY = """
 import hashlib
@@ -37,6 +47,10 @@ def remember(message):
     # Operators that run from Python leave no undo step.
     with override():
         bpy.ops.ed.undo_push(message=message)
+
+def report():
+    found = bpy.context.window_manager.framelet_report
+    return [found.n_objects, found.n_moved]
 """
 
 BALL = """

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+from .code import BALL, EMPTY, RESET
 from .session import BlenderFailed, Session
 
 UNDER_MOUSE = """
@@ -31,6 +32,29 @@ region("UI").tag_redraw()
 
 STEP = 9
 """Pixels between two places that are looked at; a button is 20 pixels high."""
+
+
+def start_fresh(session: Session, unfolded: tuple[str, ...] = ()) -> None:
+    """Load Blender's startup file without its objects, and open the sidebar at our tab.
+
+    Parameters
+    ----------
+    session : Session
+        Whose Blender it is.
+    unfolded : tuple of str
+        Subpanels to unfold, as in `bands`.
+    """
+    session.run(RESET, unfolded=[f"VIEW3D_PT_framelet_{name}" for name in unfolded])
+    session.settle(0.5)
+    session.run(EMPTY)
+    open_sidebar(session)
+    session.move(session.middle())
+
+
+def add_ball(session: Session, subdivisions: int = 5) -> None:
+    """Add a noisy ball of 10 * 4**(subdivisions - 1) + 2 vertices, named Ball, and look at it."""
+    session.run(BALL, subdivisions=subdivisions)
+    session.settle(0.5)
 
 
 def open_sidebar(session: Session) -> None:

@@ -7,11 +7,10 @@ import os
 from pathlib import Path
 
 import pytest
-from blender_window.code import BALL, EMPTY, RESET
 from blender_window.pixels import write_png
 from blender_window.programs import ROOT, NoWindow, find_programs
 from blender_window.session import Session
-from blender_window.sidebar import open_sidebar
+from blender_window.sidebar import add_ball, start_fresh
 
 SIZES = {1: (1280, 800), 2: (1920, 1200)}
 IS_REQUIRED = os.environ.get("FRAMELET_REQUIRE_GUI") == "1"
@@ -48,12 +47,11 @@ def session(request):
 
 @pytest.fixture
 def desk(session, request):
-    """The session with an empty scene and the sidebar open at our tab; a failed test leaves a picture."""
-    session.run(RESET)
-    session.settle(0.5)
-    session.run(EMPTY)
-    open_sidebar(session)
-    session.move(session.middle())
+    """The session with an empty scene and the sidebar open at our tab.
+
+    A test leaves a picture in the folder that the variable FRAMELET_PICTURES names.
+    """
+    start_fresh(session)
     yield session
     if PICTURES:
         Path(PICTURES).mkdir(parents=True, exist_ok=True)
@@ -63,6 +61,5 @@ def desk(session, request):
 @pytest.fixture
 def ball(desk):
     """The session with a noisy ball of 2,562 vertices, named Ball, in the middle of the viewport."""
-    desk.run(BALL, subdivisions=5)
-    desk.settle(0.5)
+    add_ball(desk)
     return desk
