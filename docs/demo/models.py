@@ -80,7 +80,12 @@ def bone(resolution: int = 72, noise: float = 0.12, seed: int = 0) -> SurfaceMes
     rng = np.random.default_rng(seed)
     along = np.clip(z, -0.75, 0.75)
     shaft = np.sqrt(x**2 + y**2 + (z - along) ** 2) - (0.26 + 0.12 * along**2)
-    balls = [((0.28, 0, 0.95), 0.36), ((-0.28, 0, 0.95), 0.36), ((0.3, 0, -0.95), 0.34), ((-0.3, 0, -0.95), 0.34)]
+    balls = [
+        ((0.28, 0, 0.95), 0.36),
+        ((-0.28, 0, 0.95), 0.36),
+        ((0.3, 0, -0.95), 0.34),
+        ((-0.3, 0, -0.95), 0.34),
+    ]
     field = np.exp(-10.0 * shaft)
     for (cx, cy, cz), radius in balls:
         field += np.exp(-10.0 * (np.sqrt((x - cx) ** 2 + (y - cy) ** 2 + (z - cz) ** 2) - radius))

@@ -88,9 +88,7 @@ def compared(obj: bpy.types.Object, kind: Kind) -> list[Column]:
         moved = result.report.displacement_rms / result.report.mean_edge_length
         if not kind.sigma:
             words = f"moved {moved:.2f} edges (rms)"
-        columns.append(
-            Column(copy_with_vertices(obj, preset.label, result.vertices), preset.label, words)
-        )
+        columns.append(Column(copy_with_vertices(obj, preset.label, result.vertices), preset.label, words))
         print(
             f"{preset.label}: {words}; moved {moved:.3f} edge lengths, "
             f"{result.report.flipped_faces} flipped, {result.report.seconds:.1f} s, {result.report.recipe}",

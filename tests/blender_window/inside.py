@@ -6,7 +6,7 @@
     blender --python inside.py -- FOLDER
 
 A request is a file `FOLDER/<number>.py`. What its code leaves in `result` is written to `<number>.json`, or the
-traceback of an error.
+traceback of an error. A generator in `result` is run to its end, step by step; what it returns is the answer.
 """
 
 import json
@@ -14,6 +14,7 @@ import os
 import sys
 import time
 import traceback
+import types
 
 import bpy
 
@@ -29,6 +30,8 @@ draws: list[float] = []
 
 scope: dict[str, object] = {"bpy": bpy, "ticks": ticks, "draws": draws}
 next_number = 0
+steps = None
+"""What is left of a request that takes several steps, between which Blender does its own work."""
 
 
 def window() -> bpy.types.Window:
@@ -55,26 +58,54 @@ def override(kind: str = "WINDOW"):
 
 
 def tick() -> float:
-    """Answer one request, if there is one."""
-    global next_number
+    """Begin a request, if there is one, or take its next step."""
+    global steps
     ticks.append(time.monotonic())
     path = os.path.join(FOLDER, f"{next_number}.py")
-    if os.path.exists(path):
-        answer = {}
-        scope.pop("result", None)
-        try:
+    try:
+        if steps is None:
+            if not os.path.exists(path):
+                return PAUSE
+            scope.pop("result", None)
             with open(path, encoding="utf-8") as file:
                 exec(compile(file.read(), path, "exec"), scope)
-            answer = json.dumps({"result": scope.get("result")})
-        except BaseException:
-            answer = json.dumps({"error": traceback.format_exc()})
-        with open(os.path.join(FOLDER, f"{next_number}.part"), "w", encoding="utf-8") as file:
-            file.write(answer)
-        os.rename(os.path.join(FOLDER, f"{next_number}.part"), os.path.join(FOLDER, f"{next_number}.json"))
-        next_number += 1
+            steps = scope.get("result")
+        if isinstance(steps, types.GeneratorType):
+            next(steps)
+            return PAUSE
+        answer(json.dumps({"result": steps}))
+    except StopIteration as end:
+        answer(json.dumps({"result": end.value}))
+    except BaseException:
+        answer(json.dumps({"error": traceback.format_exc()}))
     return PAUSE
 
 
-scope.update(window=window, view3d=view3d, region=region, override=override)
+def answer(text: str) -> None:
+    """Write the answer to a request, at once for those who look."""
+    global next_number, steps
+    part = os.path.join(FOLDER, f"{next_number}.part")
+    with open(part, "w", encoding="utf-8") as file:
+        file.write(text)
+    os.rename(part, os.path.join(FOLDER, f"{next_number}.json"))
+    next_number += 1
+    steps = None
+
+
+def simulate(kind: str, value: str, place: tuple[int, int], **more: object) -> None:
+    """Send an event to the window; places count from its left and bottom."""
+    window().event_simulate(type=kind, value=value, x=place[0], y=place[1], **more)
+
+
+def play(events: list) -> types.GeneratorType:
+    """Send events, each a list of kind, value, place and a dictionary of more, one in each step."""
+    for kind, value, place, more in events:
+        simulate(kind, value, place, **more)
+        yield
+    # Until Blender has handled the last one.
+    yield
+
+
+scope.update(simulate=simulate, play=play, window=window, view3d=view3d, region=region, override=override)
 bpy.types.SpaceView3D.draw_handler_add(lambda: draws.append(time.monotonic()), (), "WINDOW", "POST_PIXEL")
 bpy.app.timers.register(tick, first_interval=0.5, persistent=True)

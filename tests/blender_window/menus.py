@@ -14,12 +14,28 @@ STEP = 9
 """Pixels between two places that are looked at; an entry is 20 pixels high."""
 
 
-def entry_under_mouse(session: Session) -> str:
-    """Return the operator of the entry that the mouse is over, as in `object.framelet_denoise`; empty if none."""
-    session.run("bpy.context.window_manager.clipboard = ''")
-    session.key("C", 0.0, ctrl=True)
-    copied = session.run("result = bpy.context.window_manager.clipboard")
-    return copied.partition("(")[0].removeprefix("bpy.ops.") if copied.startswith("bpy.ops.") else ""
+SWEEP = """
+def sweep_menu(left, heights, name):
+    seen = []
+    for height in heights:
+        bpy.context.window_manager.clipboard = ""
+        simulate("MOUSEMOVE", "NOTHING", (left, height))
+        yield
+        yield
+        simulate("C", "PRESS", (left, height), ctrl=True)
+        yield
+        simulate("C", "RELEASE", (left, height), ctrl=True)
+        yield
+        copied = bpy.context.window_manager.clipboard
+        found = copied.partition("(")[0].removeprefix("bpy.ops.") if copied.startswith("bpy.ops.") else ""
+        if found == name:
+            return height, seen
+        if found and found not in seen:
+            seen.append(found)
+    return None, seen
+
+result = sweep_menu(left, heights, name)
+"""
 
 
 def find_entry(session: Session, name: str, before: np.ndarray) -> tuple[int, int]:
@@ -40,12 +56,9 @@ def find_entry(session: Session, name: str, before: np.ndarray) -> tuple[int, in
         If it is not there.
     """
     left, bottom, width, height = changed_box(before, session.picture())
-    seen = []
-    for y in range(bottom + height, bottom, -int(STEP * session.scale)):
-        session.move((left + width // 2, y))
-        found = entry_under_mouse(session)
-        if found == name:
-            return left + width // 2, y
-        if found and found not in seen:
-            seen.append(found)
-    raise BlenderFailed(f"{name} is not in the menu, which has {', '.join(seen)}.")
+    heights = list(range(bottom + height, bottom, -int(STEP * session.scale)))
+    place = left + width // 2
+    found, seen = session.run(SWEEP, left=place, heights=heights, name=name)
+    if found is None:
+        raise BlenderFailed(f"{name} is not in the menu, which has {', '.join(seen)}.")
+    return place, found

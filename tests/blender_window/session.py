@@ -52,9 +52,19 @@ class Session:
         Width and height of screen and window in pixels.
     scale : float
         Blender's resolution scale.
+    overlap : bool
+        Whether the sidebar lies over the viewport, as users know it; it is slow with software OpenGL.
     """
 
-    def __init__(self, programs: Programs, extension: Path, size: tuple[int, int], scale: float = 1.0) -> None:
+    def __init__(
+        self,
+        programs: Programs,
+        extension: Path,
+        size: tuple[int, int],
+        scale: float = 1.0,
+        *,
+        overlap: bool = False,
+    ) -> None:
         self.size = size
         self.scale = scale
         self._programs = programs
@@ -63,12 +73,12 @@ class Session:
         self._processes: list[subprocess.Popen] = []
         self.folder = programs.make_job_folder()
         try:
-            self._start(extension)
+            self._start(extension, overlap)
         except BaseException:
             self.close()
             raise
 
-    def _start(self, extension: Path) -> None:
+    def _start(self, extension: Path, overlap: bool) -> None:
         """Start screen and Blender, and wait until it answers."""
         for name in ("home", "run"):
             (self.folder / name).mkdir(mode=0o700)
@@ -83,14 +93,23 @@ class Session:
         }
         blender, log = self._programs.blender, self.folder / "blender.log"
         arguments = ["-b", "--python-exit-code", "1", "--python", f"{inside}/first_start.py"]
-        arguments += ["--", f"{inside}/{extension.name}", str(self.scale)]
+        arguments += ["--", f"{inside}/{extension.name}", str(self.scale), str(int(overlap))]
         first = self._programs.start([blender, *arguments], environment, log)
         self._processes.append(first)
         if first.wait(START_SECONDS) != 0:
             raise BlenderFailed(f"Blender could not install the extension:\n{self._log()}")
         environment["DISPLAY"] = f":{self._start_screen(inside, environment)}"
         width, height = self.size
-        arguments = ["--enable-event-simulate", "--gpu-backend", "opengl", "-p", "0", "0", str(width), str(height)]
+        arguments = [
+            "--enable-event-simulate",
+            "--gpu-backend",
+            "opengl",
+            "-p",
+            "0",
+            "0",
+            str(width),
+            str(height),
+        ]
         arguments += ["--python", f"{inside}/inside.py", "--", inside]
         self._processes.append(self._programs.start([blender, *arguments], environment, log))
         self.run("result = 1", patience=START_SECONDS)
@@ -142,7 +161,9 @@ class Session:
         end = time.monotonic() + patience
         while not answer.exists():
             if self._processes[-1].poll() is not None:
-                raise BlenderFailed(f"Blender has ended with {self._processes[-1].returncode}:\n{self._log()}")
+                raise BlenderFailed(
+                    f"Blender has ended with {self._processes[-1].returncode}:\n{self._log()}"
+                )
             if time.monotonic() > end:
                 raise BlenderFailed(f"Blender did not answer within {patience:g} s:\n{self._log()}")
             time.sleep(0.005)
@@ -167,34 +188,30 @@ class Session:
 
     # Mouse and keys. Places are pixels from the left and from the bottom of the window, as Blender counts.
 
-    def event(self, kind: str, value: str, place: tuple[int, int], **more: Any) -> None:
-        """Send one event, after which Blender has had time to handle it."""
-        self.run(
-            "window().event_simulate(type=kind, value=value, x=place[0], y=place[1], **more)",
-            kind=kind,
-            value=value,
-            place=tuple(int(x) for x in place),
-            more=more,
-        )
-        self._place = place
+    def events(self, *events: tuple[str, str, tuple[int, int], dict[str, Any]]) -> None:
+        """Send events, each a kind, a value, a place and more, and let Blender handle each."""
+        for event in events:
+            self._place = event[2]
+        self.run("result = play(events)", events=[list(event) for event in events])
 
     def move(self, place: tuple[int, int]) -> None:
         """Move the mouse."""
-        self.event("MOUSEMOVE", "NOTHING", place)
+        self.events(("MOUSEMOVE", "NOTHING", place, {}))
 
     def click(self, place: tuple[int, int], button: str = "LEFTMOUSE", seconds: float = 0.3) -> None:
         """Move the mouse to a place, and press and release a button."""
-        self.move((place[0] + 1, place[1]))
-        self.move(place)
-        self.event(button, "PRESS", place)
-        self.event(button, "RELEASE", place)
+        self.events(
+            ("MOUSEMOVE", "NOTHING", (place[0] + 1, place[1]), {}),
+            ("MOUSEMOVE", "NOTHING", place, {}),
+            (button, "PRESS", place, {}),
+            (button, "RELEASE", place, {}),
+        )
         self.settle(seconds)
 
     def key(self, kind: str, seconds: float = 0.3, unicode: str = "", **more: Any) -> None:
         """Press and release a key where the mouse is."""
         extra = {"unicode": unicode} if unicode else {}
-        self.event(kind, "PRESS", self._place, **extra, **more)
-        self.event(kind, "RELEASE", self._place, **more)
+        self.events((kind, "PRESS", self._place, {**extra, **more}), (kind, "RELEASE", self._place, more))
         self.settle(seconds)
 
     def type_text(self, text: str) -> None:
@@ -212,12 +229,11 @@ class Session:
         meanwhile: Callable[[], None] = lambda: None,
     ) -> None:
         """Drag the mouse along places; `meanwhile` is called at each."""
-        self.move(places[0])
-        self.event(button, "PRESS", places[0])
+        self.events(("MOUSEMOVE", "NOTHING", places[0], {}), (button, "PRESS", places[0], {}))
         for place in places[1:]:
             self.move(place)
             meanwhile()
-        self.event(button, "RELEASE", places[-1])
+        self.events((button, "RELEASE", places[-1], {}))
         self.settle()
 
     # Looking

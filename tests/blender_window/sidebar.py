@@ -8,18 +8,38 @@ from __future__ import annotations
 from .code import BALL, EMPTY, RESET
 from .session import BlenderFailed, Session
 
-UNDER_MOUSE = """
-result = ""
-with override(kind):
-    prop = bpy.context.property
-    if prop is not None:
-        result = prop[1]
-    elif bpy.ops.ui.copy_python_command_button.poll():
-        bpy.context.window_manager.clipboard = ""
-        bpy.ops.ui.copy_python_command_button()
-        result = bpy.context.window_manager.clipboard.partition("(")[0]
+SWEEP = """
+def under_mouse(kind):
+    with override(kind):
+        prop = bpy.context.property
+        if prop is not None:
+            return prop[1]
+        if bpy.ops.ui.copy_python_command_button.poll():
+            bpy.context.window_manager.clipboard = ""
+            bpy.ops.ui.copy_python_command_button()
+            return bpy.context.window_manager.clipboard.partition("(")[0].removeprefix("bpy.ops.")
+    return ""
+
+def sweep(kind, left, heights, name):
+    seen = []
+    for height in heights:
+        simulate("MOUSEMOVE", "NOTHING", (left, height))
+        yield
+        yield
+        found = under_mouse(kind)
+        if found == name:
+            # Not an answer that came too late.
+            yield
+            yield
+            if under_mouse(kind) == name:
+                return height, seen
+        if found and found not in seen:
+            seen.append(found)
+    return None, seen
+
+result = sweep(kind, left, heights, name)
 """
-"""Gives `object.framelet...` of a button that runs an operator and the path of a property, as in `framelet.preset`."""
+"""Finds `object.framelet...`, a button that runs an operator, or `framelet.preset`, a property."""
 
 OPEN = """
 view3d().spaces.active.show_region_ui = True
@@ -66,11 +86,6 @@ def open_sidebar(session: Session) -> None:
     session.settle(0.5)
 
 
-def under_mouse(session: Session, kind: str = "UI") -> str:
-    """Return which operator or property of a region the mouse is over; empty if none."""
-    return session.run(UNDER_MOUSE, kind=kind).removeprefix("bpy.ops.")
-
-
 def find(session: Session, name: str, kind: str = "UI", across: float = 0.6) -> tuple[int, int]:
     """Return the place of the button of an operator or property, looked for from the top.
 
@@ -92,21 +107,13 @@ def find(session: Session, name: str, kind: str = "UI", across: float = 0.6) -> 
     """
     x, y, width, height = session.box(kind)
     step = int(STEP * session.scale)
-    seen = []
     left = x + int(across * width)
-    for bottom in range(y + height - step, y, -step):
-        session.move((left, bottom))
-        found = under_mouse(session, kind)
-        if found == name:
-            # Towards the middle of the button, whose upper edge this is; and not an answer that came too late.
-            place = left, bottom - step // 3
-            session.move(place)
-            session.settle(0.1)
-            if under_mouse(session, kind) == name:
-                return place
-        if found and found not in seen:
-            seen.append(found)
-    raise BlenderFailed(f"{name} is not in the region {kind}, which has {', '.join(seen)}.")
+    heights = list(range(y + height - step, y, -step))
+    found, seen = session.run(SWEEP, kind=kind, left=left, heights=heights, name=name)
+    if found is None:
+        raise BlenderFailed(f"{name} is not in the region {kind}, which has {', '.join(seen)}.")
+    # Towards the middle of the button, whose upper edge this is.
+    return left, found - step // 3
 
 
 def press(session: Session, name: str, seconds: float = 0.3) -> None:
@@ -116,10 +123,13 @@ def press(session: Session, name: str, seconds: float = 0.3) -> None:
 
 def type_into(session: Session, place: tuple[int, int], text: str) -> None:
     """Double-click a number and type another one."""
-    for value in ("PRESS", "RELEASE"):
-        session.event("LEFTMOUSE", value, place)
-    session.event("LEFTMOUSE", "DOUBLE_CLICK", place)
-    session.event("LEFTMOUSE", "RELEASE", place)
+    session.events(
+        ("MOUSEMOVE", "NOTHING", place, {}),
+        ("LEFTMOUSE", "PRESS", place, {}),
+        ("LEFTMOUSE", "RELEASE", place, {}),
+        ("LEFTMOUSE", "DOUBLE_CLICK", place, {}),
+        ("LEFTMOUSE", "RELEASE", place, {}),
+    )
     session.settle()
     session.key("A", ctrl=True)
     session.type_text(text)

@@ -3,6 +3,9 @@
 
 """The tab in the sidebar, and the button Denoise."""
 
+import time
+
+import pytest
 from blender_window.pixels import changed
 from blender_window.sidebar import find, press
 
@@ -13,7 +16,9 @@ region("UI").tag_redraw()
 
 
 def test_extension_is_the_installed_one(desk):
-    modules = desk.run("result = [name for name in bpy.context.preferences.addons.keys() if 'framelet' in name]")
+    modules = desk.run(
+        "result = [name for name in bpy.context.preferences.addons.keys() if 'framelet' in name]"
+    )
     assert modules == ["bl_ext.user_default.framelet"]
 
 
@@ -24,6 +29,17 @@ def test_tab_is_there(desk):
     desk.run(OTHER_TAB)
     desk.settle()
     assert changed(ours, desk.part("UI")) > 0.05
+
+
+@pytest.mark.parametrize("preset", ["AUTO", "TRI_2"])
+def test_blender_rests_while_the_tab_is_open(ball, preset):
+    ball.run("bpy.context.scene.framelet.preset = preset", preset=preset)
+    ball.settle(1.0)
+    before = ball.run("result = [len(ticks), len(draws)]")
+    time.sleep(2.0)
+    after = ball.run("result = [len(ticks), len(draws)]")
+    assert after[0] > before[0]
+    assert after[1] - before[1] <= 1
 
 
 def test_denoise_changes_the_mesh_and_undo_brings_it_back(ball):
