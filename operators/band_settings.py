@@ -23,7 +23,7 @@ class StoreMixin:
 
     max_megabytes: FloatProperty(
         name="Allowed",
-        description="Store nothing if the bands of a mesh would take more megabytes than this",
+        description="Megabytes that the bands of a mesh may take, or nothing is stored: larger allows more",
         default=500.0,
         min=0.0,
         soft_max=4000.0,
@@ -83,7 +83,7 @@ class ShowMixin(RangeMixin):
     )
     level: IntProperty(
         name="Level",
-        description="Which scale: 1 is the finest, each further one is twice as coarse",
+        description="Which scale: larger is coarser; 1 is the finest, each further one is twice as coarse",
         default=1,
         min=1,
         max=MOST_LEVELS,
@@ -91,7 +91,7 @@ class ShowMixin(RangeMixin):
     )
     band: IntProperty(
         name="Band",
-        description="Which band of the level, numbered as the rows of the mask-matrix",
+        description="Which band of the level: larger is a later row of the mask-matrix",
         default=1,
         min=1,
         options=set(),
@@ -112,7 +112,7 @@ def _gain_property(level: int) -> Any:
     which = "the finest details" if level == 1 else f"details {2 ** (level - 1)} edges wide"
     return FloatProperty(
         name=f"Level {level}",
-        description=f"Gain for {which}: below 1 smooths them, 1 keeps them, above 1 exaggerates them",
+        description=f"Factor for {which}: larger makes them stronger; 0 removes them, 1 keeps them",
         default=1.0,
         min=0.0,
         max=100.0,
@@ -128,7 +128,9 @@ class EqualizerMixin:
 
     __annotations__ = {
         "levels": setting_property(
-            FIELDS["levels"], default=3, description="Number of scales that have a gain; 1 is the finest"
+            FIELDS["levels"],
+            default=3,
+            description="Number of scales that have a gain: larger reaches coarser details",
         ),
         **{name: _gain_property(level) for level, name in enumerate(GAIN_NAMES, 1)},
         "vertex_group": StringProperty(

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Bands as attributes of a mesh, and the note beside them that says how to read them.
 
-With `mesh_bridge` the only file that reads or writes mesh data. Positions are not touched here.
+With `mesh_bridge` and `shape_keys` the only file that touches mesh data. Positions are not written here.
 """
 
 from __future__ import annotations

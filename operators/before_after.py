@@ -3,6 +3,8 @@
 """The operator that shows meshes as before and as after their last run, in turn."""
 
 import bpy
+from bpy.app.translations import pgettext_n as n_
+from bpy.app.translations import pgettext_rpt as rpt_
 
 from . import run_memory, targets
 
@@ -19,10 +21,8 @@ class OBJECT_OT_framelet_before_after(bpy.types.Operator):
         """Ask for a selected mesh that was denoised, in Object Mode or Edit Mode."""
         reason = targets.poll_reason(context)
         if reason is None and not any(map(run_memory.is_remembered, targets.target_objects(context))):
-            reason = "Denoise a selected mesh first"
-        if reason is not None:
-            cls.poll_message_set(reason)
-        return reason is None
+            reason = n_("Denoise a selected mesh first")
+        return targets.allows(cls, reason)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Flip every target that was denoised; the first one says to which side."""
@@ -37,6 +37,9 @@ class OBJECT_OT_framelet_before_after(bpy.types.Operator):
         done = targets.run_on_targets(self, context, turn)
         if not done:
             return {"CANCELLED"}
-        side = "after" if wanted[0] else "before"
-        self.report({"INFO"}, f"Showing {targets.names_text(list(done))} {side} denoising")
+        names = targets.names_text(list(done))
+        text = (
+            rpt_("Showing {names} after denoising") if wanted[0] else rpt_("Showing {names} before denoising")
+        )
+        self.report({"INFO"}, text.format(names=names))
         return {"FINISHED"}

@@ -6,6 +6,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from bpy.app.translations import pgettext_n as n_
+from bpy.app.translations import pgettext_rpt as rpt_
+
 if TYPE_CHECKING:
     from ..core.automatic.recipes import Recipe
     from ..core.denoising.report import DenoiseReport
@@ -17,7 +20,7 @@ def chosen_texts(report: DenoiseReport) -> dict[str, str]:
     Automatic denoising cleans normals with the pairwise frame between faces. Its λ is a multiple of what the
     noise makes of the differences between neighboring faces, its levels are the bands of weighted averages.
     Where it took a low-pass of positions instead, there are no λ and μ. Where it took the mean of two
-    recipes, both are named.
+    recipes, there is a line for each.
     """
     settings = report.settings
     if settings.method == "POSITIONS" and report.noise is not None:
@@ -31,7 +34,8 @@ def chosen_texts(report: DenoiseReport) -> dict[str, str]:
     recipes = [recipe for recipe in RECIPES if _is_named(recipe.label.split(" and "), labels)]
     texts = [_recipe_texts(recipe) for recipe in recipes]
     names = texts[0] if texts else {}
-    return {name: ", ".join(dict.fromkeys(each[name] for each in texts if each[name])) for name in names}
+    lines = {name: "\n".join(dict.fromkeys(each[name] for each in texts if each[name])) for name in names}
+    return {"chosen_recipe": "\n".join(recipe.label for recipe in recipes) or report.recipe, **lines}
 
 
 def _is_named(words: list[str], labels: list[str]) -> bool:
@@ -44,11 +48,16 @@ def _recipe_texts(recipe: Recipe) -> dict[str, str]:
     from ..core.normals.pilot import COUPLING
 
     if not recipe.range_sigmas:
-        averages = f"{recipe.n_averages} averages"
-        return {"chosen_frame": "Low-pass", "chosen_levels": averages, "chosen_lambda": "", "chosen_mu": ""}
+        averages = rpt_("{number} averages").format(number=recipe.n_averages)
+        return {
+            "chosen_frame": n_("Low-pass"),
+            "chosen_levels": averages,
+            "chosen_lambda": "",
+            "chosen_mu": "",
+        }
     return {
-        "chosen_frame": "Pairwise, on normals",
+        "chosen_frame": n_("Pairwise (normals)"),
         "chosen_levels": str(recipe.n_bands),
-        "chosen_lambda": f"{recipe.threshold:g} × noise",
+        "chosen_lambda": rpt_("{number} × noise").format(number=f"{recipe.threshold:g}"),
         "chosen_mu": f"{COUPLING:g}",
     }

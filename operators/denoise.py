@@ -1,20 +1,34 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The operator behind the button Denoise."""
+"""The operator behind the button Denoise, and the one that cancels it."""
+
+from __future__ import annotations
 
 import bpy
+from bpy.app.translations import pgettext_n as n_
+from bpy.app.translations import pgettext_rpt as rpt_
 
 from . import targets
-from .denoise_object import denoise_and_measure
+from .current_run import IS_RUNNING, current_run, set_current
+from .denoise_run import DenoiseRun, State, begin_run
 from .filled_reports import fill_estimate_of_run, fill_report
 from .heat_map import refresh_heat
+from .output import select_instead
+from .region_settings import RegionMixin
+from .region_values import shown_region_names, to_region_options
 from .report import FrameletReport
+from .run_display import RunDisplay
 from .scene_units import length_text, noise_text
 from .setting_values import PROPERTY_NAMES, fill, has_effect, is_replaced, to_settings
-from .settings import SettingsMixin
+from .settings import OutputMixin, SettingsMixin
+
+TICK = 0.05
+"""Seconds between two looks at a run."""
+
+CANCELED = n_("Canceled; nothing was changed")
 
 
-class OBJECT_OT_framelet_denoise(SettingsMixin, bpy.types.Operator):
+class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, RegionMixin, bpy.types.Operator):
     """Remove noise from the selected meshes; in Edit Mode only the selected vertices move"""
 
     bl_idname = "object.framelet_denoise"
@@ -23,11 +37,8 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Ask for a selected mesh, in Object Mode or Edit Mode."""
-        reason = targets.poll_reason(context)
-        if reason is not None:
-            cls.poll_message_set(reason)
-        return reason is None
+        """Ask for a selected mesh, in Object Mode or Edit Mode, and for no run that is going on."""
+        return targets.allows(cls, IS_RUNNING if current_run() else targets.poll_reason(context))
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Show, when adjusting the last operation, the settings that the method uses."""
@@ -39,28 +50,129 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, bpy.types.Operator):
                 row = layout.row()
                 row.active = not is_replaced(self.method, self.tuning, name)
                 row.prop(self, name)
+        layout.prop(self, "output")
+        for name in shown_region_names(self):
+            layout.prop(self, name)
+
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        """Start the run on a thread and stay in charge of it; without a window, run at once."""
+        if bpy.app.background or context.window is None:
+            return self.execute(context)
+        if not self._begin(context):
+            return {"CANCELLED"}
+        self._run.start()
+        self._display = RunDisplay(context, self._run)
+        self._timer = context.window_manager.event_timer_add(TICK, window=context.window)
+        context.window_manager.modal_handler_add(self)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Look at the run at each tick; Esc and the right mouse button cancel, all else is Blender's."""
+        try:
+            if event.type in {"ESC", "RIGHTMOUSE"} and event.value == "PRESS":
+                self._run.cancel()
+            state = self._run.tick()
+            if state is State.RUNNING:
+                self._display.update(context)
+                return {"PASS_THROUGH"}
+            self._end(context)
+            return self._finish(context)
+        except Exception:
+            # Blender shows the error; what must not stay is a run that nobody looks at any more.
+            self._run.cancel()
+            self._end(context)
+            raise
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Give up when Blender ends the operator: the window closes, another file is opened."""
+        self._run.cancel()
+        self._end(context)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        """Denoise every target and fill the report of the last run."""
+        """Denoise every target at once."""
+        if not self._begin(context):
+            return {"CANCELLED"}
+        manager = context.window_manager
+        manager.progress_begin(0.0, 1.0)
+        try:
+            self._run.run_here(manager.progress_update)
+        finally:
+            manager.progress_end()
+        return self._finish(context)
+
+    def _begin(self, context: bpy.types.Context) -> bool:
+        """Read the targets; report why not if there is nothing to do."""
         settings = to_settings(self)
         # The panel for adjusting the last operation shows the values that were used, defaults included.
         fill(self, settings)
-        measured = targets.run_on_targets(
-            self, context, lambda obj, progress: denoise_and_measure(obj, settings, progress)
-        )
-        if not measured:
+        try:
+            self._run: DenoiseRun = begin_run(
+                targets.target_objects(context), settings, self.output, to_region_options(self)
+            )
+            set_current(self._run)
+        except ValueError as error:
+            self.report({"ERROR"}, str(error))
+            return False
+        return True
+
+    def _end(self, context: bpy.types.Context) -> None:
+        """Take away what shows the run."""
+        if self._timer is not None:
+            context.window_manager.event_timer_remove(self._timer)
+            self._timer = None
+        self._display.remove()
+
+    def _finish(self, context: bpy.types.Context) -> set[str]:
+        """Write what came of the run, and report it."""
+        run = self._run
+        if run.state is State.CANCELED:
+            self.report({"INFO"}, rpt_(CANCELED))
             return {"CANCELLED"}
+        if run.state is State.FAILED:
+            self.report({"ERROR"}, run.reason)
+            return {"CANCELLED"}
+        written = run.finish()
+        if run.failures:
+            self.report({"WARNING"}, " ".join(run.failures))
+        select_instead(context.view_layer, [(item.original, item.obj) for item in written])
+        measured = {item.obj.name: item.measured for item in written}
         report = context.window_manager.framelet_report
         fill_report(report, measured)
         fill_estimate_of_run(context.window_manager.framelet_estimate, measured)
         refresh_heat(context, [bpy.data.objects[name] for name in measured])
         self.report(
             {"INFO"},
-            f"Denoised {targets.names_text(list(measured))}: {report.n_moved:,} of {report.n_vertices:,} "
-            f"vertices moved, {length_text(context.scene, report.displacement_rms)} RMS "
-            f"({report.displacement_rms_edges:.3f} edge lengths), in {report.seconds:.2f} s"
-            f"{_noise_words(context.scene, report)}",
+            rpt_(
+                "Denoised {names}: {moved:,} of {total:,} vertices moved, {length} RMS "
+                "({edges:.3f} edge lengths), in {seconds:.2f} s"
+            ).format(
+                names=targets.names_text(list(measured)),
+                moved=report.n_moved,
+                total=report.n_vertices,
+                length=length_text(context.scene, report.displacement_rms),
+                edges=report.displacement_rms_edges,
+                seconds=report.seconds,
+            )
+            + _noise_words(context.scene, report),
         )
+        return {"FINISHED"}
+
+
+class OBJECT_OT_framelet_cancel(bpy.types.Operator):
+    """Cancel the run that is going on; everything stays as it was"""
+
+    bl_idname = "object.framelet_cancel"
+    bl_label = "Cancel"
+    bl_options = {"INTERNAL"}
+
+    @classmethod
+    def poll(cls, _context: bpy.types.Context) -> bool:
+        """Ask for a run."""
+        return targets.allows(cls, n_("Framelet is not running") if current_run() is None else None)
+
+    def execute(self, _context: bpy.types.Context) -> set[str]:
+        """Cancel; the operator that is in charge of the run ends at its next tick."""
+        current_run().cancel()
         return {"FINISHED"}
 
 
@@ -70,4 +182,5 @@ def _noise_words(scene: bpy.types.Scene, report: FrameletReport) -> str:
         return ""
     noise = noise_text(scene, report.noise_sigma, report.noise_sigma_edges, report.is_impulsive)
     taken = report.recipe or report.parameters
-    return f"; noise {noise}" + (f"; used {taken}" if taken else "")
+    words = rpt_("; noise {noise}").format(noise=noise)
+    return words + (rpt_("; used {what}").format(what=taken) if taken else "")

@@ -7,11 +7,15 @@ Reading and writing belong to the main thread; `denoise_job.compute` between the
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
-from . import mesh_bridge, run_memory
+from ..core.region_options import RegionOptions
+from . import run_memory
 from .denoise_job import DenoiseJob, DenoiseOutcome, MeasuredReport, compute
+from .output import IN_PLACE, SHAPE_KEY, refusal, write_output
+from .region_bridge import read_region
 from .scene_units import linear_part
+from .shape_keys import read_followers
 
 if TYPE_CHECKING:
     import bpy
@@ -20,7 +24,12 @@ if TYPE_CHECKING:
     from ..core.settings import DenoiseSettings
 
 
-def read_job(obj: bpy.types.Object, settings: DenoiseSettings) -> DenoiseJob:
+def read_job(
+    obj: bpy.types.Object,
+    settings: DenoiseSettings,
+    output: str = IN_PLACE,
+    options: RegionOptions | None = None,
+) -> DenoiseJob:
     """Read what a run needs of an object.
 
     Parameters
@@ -29,23 +38,25 @@ def read_job(obj: bpy.types.Object, settings: DenoiseSettings) -> DenoiseJob:
         A mesh object in Object Mode or Edit Mode.
     settings : DenoiseSettings
         What will be done.
+    output : str
+        One of `output.OUTPUTS`.
+    options : RegionOptions, optional
+        What limits the run; by default selection and hidden vertices alone.
 
     Raises
     ------
     ValueError
-        With a sentence that names the object, if it cannot be edited or nothing is selected.
+        With a sentence that names the object, if it cannot be edited or nothing may move.
     """
-    reason = mesh_bridge.refusal(obj)
+    reason = refusal(obj, output)
     if reason is not None:
         raise ValueError(reason)
-    surface, movable = mesh_bridge.read_surface_and_movable(obj)
-    if movable is not None and not movable.any():
-        raise ValueError(f"‘{obj.name}’ has no selected vertices; select what should be denoised.")
-    return DenoiseJob(obj.name, surface, settings, linear_part(obj), movable)
+    surface, movable, region = read_region(obj, options or RegionOptions())
+    return DenoiseJob(obj.name, surface, settings, linear_part(obj), movable, region, output)
 
 
-def write_outcome(obj: bpy.types.Object, job: DenoiseJob, outcome: DenoiseOutcome) -> None:
-    """Write what came of a job to the object that it was read from; a stopped run leaves it as it is.
+def write_outcome(obj: bpy.types.Object, job: DenoiseJob, outcome: DenoiseOutcome) -> bpy.types.Object:
+    """Write what came of a job that was not stopped.
 
     Parameters
     ----------
@@ -55,43 +66,70 @@ def write_outcome(obj: bpy.types.Object, job: DenoiseJob, outcome: DenoiseOutcom
         What `read_job` returned.
     outcome : DenoiseOutcome
         What `denoise_job.compute` made of it.
+
+    Returns
+    -------
+    bpy.types.Object
+        The object that has the result: the same, or a new one.
     """
-    if not outcome.measured.report.is_stopped:
-        run_memory.write_and_remember(obj, job.surface, outcome.vertices)
+    followers = {} if job.output == SHAPE_KEY else read_followers(obj)
+    written = write_output(obj, job.surface, outcome.vertices, job.output)
+    run_memory.remember(written, job.surface, followers)
+    return written
+
+
+class DenoisedObject(NamedTuple):
+    """The object that has the result of a run, and the measured report."""
+
+    obj: bpy.types.Object
+    measured: MeasuredReport
 
 
 def denoise_object(
-    obj: bpy.types.Object, settings: DenoiseSettings, callback: Callback | None = None
+    obj: bpy.types.Object,
+    settings: DenoiseSettings,
+    callback: Callback | None = None,
+    output: str = IN_PLACE,
+    options: RegionOptions | None = None,
 ) -> DenoiseReport:
-    """Denoise the mesh of an object in place; in Edit Mode only the selected vertices.
+    """Denoise the mesh of an object; in Edit Mode only the selected vertices.
 
     Parameters
     ----------
     obj : bpy.types.Object
-        A mesh object in Object Mode or Edit Mode. Its active shape key is edited; modifiers are not applied.
+        A mesh object in Object Mode or Edit Mode. Its active shape key is read; modifiers are not applied.
     settings : DenoiseSettings
         What to do.
     callback : callable, optional
         `callback(fraction, change)`, called after each iteration; returns True to stop.
+    output : str
+        Where the result goes, one of `output.OUTPUTS`.
+    options : RegionOptions, optional
+        What limits the run to parts of the mesh, and how far vertices may move.
 
     Returns
     -------
     DenoiseReport
-        Lengths are in object space. If the run was stopped, the mesh is as it was.
+        Lengths are in object space. If the run was stopped, everything is as it was.
 
     Raises
     ------
     ValueError
-        With a sentence that begins with the object's name. The mesh is as it was.
+        With a sentence that begins with the object's name. Everything is as it was.
     """
-    return denoise_and_measure(obj, settings, callback).report
+    return denoise_and_measure(obj, settings, callback, output, options).measured.report
 
 
 def denoise_and_measure(
-    obj: bpy.types.Object, settings: DenoiseSettings, callback: Callback | None = None
-) -> MeasuredReport:
-    """Denoise as `denoise_object` does, and measure with the object's scale too."""
-    job = read_job(obj, settings)
+    obj: bpy.types.Object,
+    settings: DenoiseSettings,
+    callback: Callback | None = None,
+    output: str = IN_PLACE,
+    options: RegionOptions | None = None,
+) -> DenoisedObject:
+    """Denoise as `denoise_object` does, say which object has the result, and measure with its scale too."""
+    job = read_job(obj, settings, output, options)
     outcome = compute(job, callback)
-    write_outcome(obj, job, outcome)
-    return outcome.measured
+    if not outcome.measured.report.is_stopped:
+        obj = write_outcome(obj, job, outcome)
+    return DenoisedObject(obj, outcome.measured)

@@ -9,6 +9,8 @@ from math import degrees
 from typing import TYPE_CHECKING, Any
 
 import bpy
+from bpy.app.translations import pgettext_n as n_
+from bpy.app.translations import pgettext_rpt as rpt_
 
 from . import band_storage, run_memory, targets
 from .coloring import chosen_limit, color_objects
@@ -75,10 +77,8 @@ class OBJECT_OT_framelet_heat_map(HeatMixin, bpy.types.Operator):
         """Ask for a selected mesh that was denoised, in Object Mode."""
         reason = targets.poll_reason(context, in_object_mode=True)
         if reason is None and not any(map(run_memory.is_remembered, targets.target_objects(context))):
-            reason = "Denoise a selected mesh first"
-        if reason is not None:
-            cls.poll_message_set(reason)
-        return reason is None
+            reason = n_("Denoise a selected mesh first")
+        return targets.allows(cls, reason)
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Show, when adjusting the last operation, the properties that count."""
@@ -107,8 +107,15 @@ class OBJECT_OT_framelet_heat_map(HeatMixin, bpy.types.Operator):
         )
         self.report(
             {"INFO"},
-            f"{kind.title} of {targets.names_text(list(done))}: colors from {lowest} to {highest}, "
-            f"{100.0 * found.share:.1f} % of all are within",
+            rpt_(
+                "{title} of {names}: colors from {lowest} to {highest}, {share:.1f} % of all are within"
+            ).format(
+                title=rpt_(kind.title),
+                names=targets.names_text(list(done)),
+                lowest=lowest,
+                highest=highest,
+                share=100.0 * found.share,
+            ),
         )
         return {"FINISHED"}
 
@@ -127,10 +134,8 @@ class OBJECT_OT_framelet_hide_colors(bpy.types.Operator):
         if reason is None and not any(
             band_storage.has_colors(obj.data) for obj in targets.target_objects(context)
         ):
-            reason = "The selected meshes have no colors of Framelet"
-        if reason is not None:
-            cls.poll_message_set(reason)
-        return reason is None
+            reason = n_("The selected meshes have no colors of Framelet")
+        return targets.allows(cls, reason)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Take the colors of every target away."""

@@ -6,6 +6,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from bpy.app.translations import pgettext_n as n_
+
 from .band_values import BandValues
 from .run_memory import recall
 from .scene_units import linear_part, surface_in_scene
@@ -24,9 +26,9 @@ class Quantity(NamedTuple):
 
 
 QUANTITIES = {
-    "NORMAL": Quantity("Displacement along normals", True, False, "POINT"),
-    "LENGTH": Quantity("Displacement", False, False, "POINT"),
-    "ANGLE": Quantity("Angle change of faces", False, True, "CORNER"),
+    "NORMAL": Quantity(n_("Displacement along normals"), True, False, "POINT"),
+    "LENGTH": Quantity(n_("Displacement"), False, False, "POINT"),
+    "ANGLE": Quantity(n_("Angle change of faces"), False, True, "CORNER"),
 }
 
 

@@ -7,13 +7,16 @@ A mesh is recognized by its arrays, value by value: after any edit it is prepare
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from threading import Lock
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from ..core import PreparationCache
+
+WAITING_STEP = 0.05
+"""Seconds between two looks at whether a run that waits is still wanted."""
 
 _cache: PreparationCache | None = None
 _lock = Lock()
@@ -30,10 +33,24 @@ def preparations() -> PreparationCache:
 
 
 @contextmanager
-def borrowed_preparations() -> Iterator[PreparationCache]:
-    """Give the cache to one run at a time: a run writes to what was prepared, so that others have to wait."""
-    with _lock:
+def borrowed_preparations(should_stop: Callable[[], bool] | None = None) -> Iterator[PreparationCache]:
+    """Give the cache to one run at a time: a run writes to what was prepared, so that others have to wait.
+
+    Parameters
+    ----------
+    should_stop : callable, optional
+        Asked while waiting. A run that is to stop gets an empty cache at once, as it will not use it.
+    """
+    while not _lock.acquire(timeout=WAITING_STEP):
+        if should_stop is not None and should_stop():
+            from ..core import PreparationCache
+
+            yield PreparationCache()
+            return
+    try:
         yield preparations()
+    finally:
+        _lock.release()
 
 
 def forget_preparations() -> None:

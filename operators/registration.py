@@ -3,22 +3,21 @@
 """Registers the operators, the pointers to their data, and the command line."""
 
 import bpy
-from bpy.app.handlers import load_pre, persistent
 from bpy.utils import register_classes_factory
 
-from . import mesh_facts
+from . import handlers, mesh_facts
 from .add_noise import OBJECT_OT_framelet_add_noise
 from .analyze import OBJECT_OT_framelet_analyze, OBJECT_OT_framelet_clear
 from .band_settings import FrameletBands, FrameletEqualizer
 from .before_after import OBJECT_OT_framelet_before_after
 from .command_line import blender_command
 from .compare import OBJECT_OT_framelet_compare
-from .denoise import OBJECT_OT_framelet_denoise
+from .denoise import OBJECT_OT_framelet_cancel, OBJECT_OT_framelet_denoise
 from .equalize import OBJECT_OT_framelet_equalize
 from .estimate_noise import OBJECT_OT_framelet_estimate_noise
 from .heat_map import OBJECT_OT_framelet_heat_map, OBJECT_OT_framelet_hide_colors
 from .heat_settings import FrameletHeatMap
-from .preparations import forget_preparations
+from .presets import OBJECT_OT_framelet_preset_add
 from .report import (
     FrameletBandRange,
     FrameletComparison,
@@ -26,7 +25,6 @@ from .report import (
     FrameletNoise,
     FrameletReport,
 )
-from .run_memory import forget_runs
 from .settings import FrameletSettings
 from .show_band import OBJECT_OT_framelet_show_band
 from .synthesize import OBJECT_OT_framelet_synthesize
@@ -42,6 +40,7 @@ classes = (
     FrameletEqualizer,
     FrameletHeatMap,
     OBJECT_OT_framelet_denoise,
+    OBJECT_OT_framelet_cancel,
     OBJECT_OT_framelet_estimate_noise,
     OBJECT_OT_framelet_add_noise,
     OBJECT_OT_framelet_compare,
@@ -53,6 +52,7 @@ classes = (
     OBJECT_OT_framelet_before_after,
     OBJECT_OT_framelet_heat_map,
     OBJECT_OT_framelet_hide_colors,
+    OBJECT_OT_framelet_preset_add,
 )
 
 POINTERS = (
@@ -70,27 +70,19 @@ POINTERS = (
 _register_classes, _unregister_classes = register_classes_factory(classes)
 
 
-@persistent
-def _free_memory(*_: object) -> None:
-    """Drop what was kept of the meshes of the file before."""
-    forget_preparations()
-    forget_runs()
-
-
 def register() -> None:
     """Register the classes, the pointers to them and the command."""
     _register_classes()
     for owner, name, kind in POINTERS:
         setattr(owner, name, bpy.props.PointerProperty(type=kind))
-    load_pre.append(_free_memory)
+    handlers.register()
     blender_command.register()
 
 
 def unregister() -> None:
     """Take everything away in reverse order."""
     blender_command.unregister()
-    load_pre.remove(_free_memory)
-    _free_memory()
+    handlers.unregister()
     for owner, name, _ in reversed(POINTERS):
         delattr(owner, name)
     mesh_facts.forget_facts()

@@ -50,6 +50,7 @@ class FrameletNoise(bpy.types.PropertyGroup):
     recipe: StringProperty(
         name="Recipe", description="What automatic denoising chose; empty if it did not run"
     )
+    chosen_recipe: _chosen("Chosen")
     chosen_frame: _chosen("Frame")
     chosen_levels: _chosen("Levels")
     chosen_lambda: _chosen("Smoothing λ")
@@ -83,6 +84,21 @@ class FrameletReport(bpy.types.PropertyGroup):
     flipped_faces: IntProperty(
         name="Flipped Faces", description="Faces that turned by more than a right angle"
     )
+    folded_faces: IntProperty(
+        name="Folded Faces", description="Faces that look against the faces around them"
+    )
+    folded_faces_before: IntProperty(
+        name="Folded Faces Before", description="Faces that looked against the faces around them before"
+    )
+    degenerate_faces: IntProperty(name="Degenerate", description="Faces next to without area")
+    degenerate_faces_before: IntProperty(
+        name="Degenerate Before", description="Faces next to without area before"
+    )
+    damped_vertices: IntProperty(name="Damped", description="Vertices that moved less, so that no face folds")
+    line_vertices: IntProperty(
+        name="On Lines", description="Vertices on sharp edges, which were smoothed along them only"
+    )
+    welded_vertices: IntProperty(name="Welded", description="Vertices that were welded to others for the run")
     is_closed: BoolProperty(
         name="Closed", description="All meshes are closed, so that their volumes are known"
     )

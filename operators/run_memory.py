@@ -13,8 +13,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from . import mesh_bridge
+from .shape_keys import read_followers, write_followers
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     import bpy
     import numpy as np
     from numpy.typing import NDArray
@@ -53,18 +56,28 @@ class Recalled(NamedTuple):
 _runs: dict[int, LastRun] = {}
 
 
-def write_and_remember(obj: bpy.types.Object, surface: SurfaceMesh, vertices: NDArray[np.floating]) -> None:
-    """Write the result of a run as `mesh_bridge.write_vertices` does, and remember both positions."""
+def remember(
+    obj: bpy.types.Object, surface: SurfaceMesh, followers: Mapping[str, NDArray[np.float32]]
+) -> None:
+    """Remember a run whose result was just written.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        The object that has the result.
+    surface : SurfaceMesh
+        The mesh as it was before.
+    followers : mapping
+        What `shape_keys.read_followers` returned before the result was written.
+    """
     import numpy as np
 
-    before = mesh_bridge.read_followers(obj)
-    mesh_bridge.write_vertices(obj, surface, vertices)
-    after = mesh_bridge.read_followers(obj)
+    moved = read_followers(obj)
+    pairs = {name: (points, moved[name]) for name, points in followers.items() if name in moved}
     now = mesh_bridge.read_surface(obj).vertices
-    followers = {name: (points, after[name]) for name, points in before.items()}
     key = obj.data.session_uid
     _runs.pop(key, None)
-    _runs[key] = LastRun(np.array(surface.vertices, np.float32), now, followers)
+    _runs[key] = LastRun(np.array(surface.vertices, np.float32), now, pairs)
     while len(_runs) > 1 and sum(run.n_bytes for run in _runs.values()) > MOST_BYTES:
         del _runs[next(iter(_runs))]
 
@@ -116,14 +129,14 @@ def flip(obj: bpy.types.Object) -> bool:
         raise ValueError(reason)
     run, surface, is_after = recall(obj)
     # What moved along gets its own bits back, unless it was edited meanwhile: then it moves along again.
-    present = mesh_bridge.read_followers(obj)
+    present = read_followers(obj)
     exact = {
         name: points[not is_after]
         for name, points in run.followers.items()
         if name in present and np.array_equal(present[name], points[is_after])
     }
     mesh_bridge.write_vertices(obj, surface, run.before if is_after else run.after)
-    mesh_bridge.write_followers(obj, exact)
+    write_followers(obj, exact)
     return not is_after
 
 

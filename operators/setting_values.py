@@ -12,6 +12,7 @@ from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
 from ..core.settings import DEFAULT_PRESET, PRESETS, DenoiseSettings
+from .region_values import REGION_NAMES, as_typed
 
 if TYPE_CHECKING:
     import bpy
@@ -91,8 +92,8 @@ def to_settings(properties: Any) -> DenoiseSettings:
 
 def copy_settings(source: Any, target: Any) -> None:
     """Copy all properties of scene settings to an operator, so that the operator needs nothing else."""
+    copy_values(source, target, ("preset", "output", *REGION_NAMES))
     settings = to_settings(source)
-    write_quietly(target, "preset", source.preset)
     for name in SETTING_NAMES:
         write_quietly(target, name, getattr(settings, name))
 
@@ -125,11 +126,6 @@ def write_quietly(target: Any, name: str, value: Any) -> None:
     is_apart = hasattr(target, "bl_system_properties_get")
     store = target.bl_system_properties_get(do_create=True) if is_apart else target
     store[name] = value
-
-
-def as_typed(value: Any) -> Any:
-    """Return the number that was typed: properties hold single precision, 0.3 as 0.30000001."""
-    return float(f"{value:.7g}") if isinstance(value, float) else value
 
 
 def follow_preset(self: Any, _context: bpy.types.Context) -> None:

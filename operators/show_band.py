@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
 
 from . import targets
 from .band_settings import ShowMixin, shown_names
@@ -25,10 +26,7 @@ class OBJECT_OT_framelet_show_band(ShowMixin, bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Ask for a selected mesh with bands, in Object Mode."""
-        reason = targets.band_poll_reason(context)
-        if reason is not None:
-            cls.poll_message_set(reason)
-        return reason is None
+        return targets.allows(cls, targets.band_poll_reason(context))
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Show, when adjusting the last operation, the properties that count."""
@@ -56,8 +54,14 @@ class OBJECT_OT_framelet_show_band(ShowMixin, bpy.types.Operator):
         length = length_text(context.scene, found.limit)
         self.report(
             {"INFO"},
-            f"{choice.title} of {targets.names_text(list(done))}: colors from "
-            f"{f'-{length}' if choice.is_signed else '0'} to {length}, which {shown.share:.1f} % of the "
-            "vertices are within",
+            rpt_(
+                "{title} of {names}: colors from {lowest} to {highest}, {share:.1f} % of all are within"
+            ).format(
+                title=choice.title,
+                names=targets.names_text(list(done)),
+                lowest=f"−{length}" if choice.is_signed else "0",
+                highest=length,
+                share=shown.share,
+            ),
         )
         return {"FINISHED"}

@@ -9,7 +9,7 @@ class Layout:
     """Records what a panel draws, checking that properties and operators exist."""
 
     def __init__(self, record=None, active=True):
-        kinds = ("prop", "label", "operator", "icon", "grayed", "menu", "pressed")
+        kinds = ("prop", "label", "operator", "icon", "grayed", "menu", "pressed", "prop_enum")
         self.record = record or {kind: [] for kind in kinds}
         self.active = active
 
@@ -30,6 +30,10 @@ class Layout:
         self.record["prop"].append(name)
         if not self.active:
             self.record["grayed"].append(name)
+
+    def prop_enum(self, data, name, identifier, **_options):
+        assert identifier in data.bl_rna.properties[name].enum_items
+        self.record["prop_enum"].append((name, identifier))
 
     def prop_search(self, data, name, source, collection, **_options):
         assert collection in source.bl_rna.properties

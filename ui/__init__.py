@@ -4,12 +4,26 @@
 
 from bpy.utils import register_classes_factory
 
-from . import band_panels, legend, menus, panel, report_panels, see_panel
+from . import (
+    band_panels,
+    legend,
+    menus,
+    output_panel,
+    panel,
+    preset_panel,
+    region_panel,
+    report_panels,
+    see_panel,
+    translations,
+)
 
 # Subpanels are shown in this order.
 classes = (
+    *preset_panel.classes,
     panel.VIEW3D_PT_framelet,
     *see_panel.classes,
+    *region_panel.classes,
+    *output_panel.classes,
     *band_panels.classes,
     panel.VIEW3D_PT_framelet_advanced,
     *report_panels.classes,
@@ -24,10 +38,12 @@ def register() -> None:
     _register_classes()
     menus.register()
     legend.register()
+    translations.register()
 
 
 def unregister() -> None:
     """Take everything away in reverse order."""
+    translations.unregister()
     legend.unregister()
     menus.unregister()
     _unregister_classes()

@@ -10,7 +10,7 @@ from typing import Any
 import blf
 import bpy
 import gpu
-from bpy.app.translations import pgettext_iface as translated
+from bpy.app.translations import pgettext_iface as iface_
 from gpu_extras.batch import batch_for_shader
 
 from ..operators import band_storage
@@ -57,8 +57,8 @@ def legend_texts(scene: bpy.types.Scene, shown: bpy.types.PropertyGroup) -> tupl
     """Return the title, the labels from the lowest value up, and the note of the legend."""
     values = tick_values(shown.minimum, shown.maximum, shown.is_signed)
     labels = [value_text(scene, value, shown.is_angle) for value in values]
-    note = "" if shown.share >= 99.95 else translated("{:.1f} % within").format(shown.share)
-    return translated(shown.title), labels, note
+    note = "" if shown.share >= 99.95 else iface_("{:.1f} % within").format(shown.share)
+    return iface_(shown.title), labels, note
 
 
 def stripe_colors(is_signed: bool, values: Iterable[float]) -> list[tuple[float, float, float, float]]:

@@ -8,11 +8,14 @@ It draws and never computes.
 from __future__ import annotations
 
 import bpy
+from bpy.app.translations import pgettext_n as n_
 
 from ..operators import mesh_facts
 from ..operators.denoise import OBJECT_OT_framelet_denoise
 from ..operators.setting_values import copy_settings, has_effect, is_replaced
 from .layouts import FrameletPanel, draw_settings, draw_value, settings_column
+from .preset_panel import VIEW3D_PT_framelet_presets
+from .run_rows import draw_progress
 
 MAIN_NAMES = (
     "tuning",
@@ -39,10 +42,11 @@ ADVANCED_NAMES = (
     "threads",
 )
 CHOSEN = (
-    ("Frame", "chosen_frame"),
-    ("Levels", "chosen_levels"),
-    ("Smoothing λ", "chosen_lambda"),
-    ("Penalty μ", "chosen_mu"),
+    (n_("Chosen"), "chosen_recipe"),
+    (n_("Frame"), "chosen_frame"),
+    (n_("Levels"), "chosen_levels"),
+    (n_("Smoothing λ"), "chosen_lambda"),
+    (n_("Penalty μ"), "chosen_mu"),
 )
 """What a run chose for an object: labels, and properties of `FrameletNoise`."""
 
@@ -54,6 +58,10 @@ class VIEW3D_PT_framelet(FrameletPanel, bpy.types.Panel):
 
     bl_label = "Framelet"
 
+    def draw_header_preset(self, _context: bpy.types.Context) -> None:
+        """Draw the button with the list of presets."""
+        VIEW3D_PT_framelet_presets.draw_panel_header(self.layout)
+
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the button, engine and preset, the strength, and the settings that matter most."""
         layout = self.layout
@@ -61,6 +69,7 @@ class VIEW3D_PT_framelet(FrameletPanel, bpy.types.Panel):
         row = layout.row()
         row.scale_y = 1.8
         copy_settings(settings, row.operator(OBJECT_OT_framelet_denoise.bl_idname, icon="MOD_SMOOTH"))
+        draw_progress(layout)
         column = settings_column(layout)
         for name in ("preset", "method", "strength"):
             if has_effect(settings.method, name):
@@ -71,7 +80,7 @@ class VIEW3D_PT_framelet(FrameletPanel, bpy.types.Panel):
             return
         draw_settings(layout, settings, MAIN_NAMES, context.active_object)
         if is_replaced(settings.method, settings.tuning, "lambda_"):
-            _draw_chosen(layout, context, CHOSEN[2:])
+            _draw_chosen(layout, context, CHOSEN[3:])
 
 
 class VIEW3D_PT_framelet_advanced(FrameletPanel, bpy.types.Panel):
@@ -99,8 +108,8 @@ def _draw_chosen(
     entry = obj and context.window_manager.framelet_estimate.objects.get(obj.name)
     column = layout.column(align=True)
     column.active = False
-    is_known = bool(entry) and entry.is_denoised
-    if context.scene.framelet.method == "AUTO":
-        draw_value(column, "Chosen", entry.recipe if is_known and entry.recipe else "At the next run")
     for label, name in chosen:
-        draw_value(column, label, (getattr(entry, name) if is_known else "") or UNKNOWN)
+        text = getattr(entry, name) if entry and entry.is_denoised else ""
+        for line in (text or (n_("At the next run") if label == "Chosen" else UNKNOWN)).splitlines():
+            draw_value(column, label, line)
+            label = ""

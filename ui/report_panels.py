@@ -5,11 +5,14 @@
 from __future__ import annotations
 
 import bpy
+from bpy.app.translations import pgettext_iface as iface_
+from bpy.app.translations import pgettext_n as n_
 
 from ..operators.add_noise import OBJECT_OT_framelet_add_noise
 from ..operators.compare import OBJECT_OT_framelet_compare
 from ..operators.estimate_noise import OBJECT_OT_framelet_estimate_noise
 from .layouts import FrameletPanel, draw_lengths, draw_value
+from .region_panel import draw_repairs
 
 
 class VIEW3D_PT_framelet_last_run(FrameletPanel, bpy.types.Panel):
@@ -28,17 +31,18 @@ class VIEW3D_PT_framelet_last_run(FrameletPanel, bpy.types.Panel):
             return
         one = report.n_objects == 1
         draw_value(column, "Object" if one else "Objects", report.names if one else str(report.n_objects))
-        draw_value(column, "Moved", f"{report.n_moved:,} of {report.n_vertices:,}")
+        draw_value(column, "Moved", iface_("{:,} of {:,}").format(report.n_moved, report.n_vertices))
         draw_lengths(column, context.scene, "RMS", report.displacement_rms, report.displacement_rms_edges)
         draw_lengths(column, context.scene, "Largest", report.displacement_max, report.displacement_max_edges)
-        volume = f"{report.volume_change:+.2f} %" if report.is_closed else "Open mesh"
-        draw_value(column, "Volume", volume)
+        volume = f"{report.volume_change:+.2f} %"
+        draw_value(column, "Volume", volume if report.is_closed else "Open mesh")
         draw_value(column, "Flipped Faces", f"{report.flipped_faces:,}")
+        draw_repairs(column, report)
         for label, name in (
-            ("Irregular", "irregular_vertices"),
-            ("Boundary", "boundary_vertices"),
-            ("Non-Manifold", "non_manifold_vertices"),
-            ("Loose", "loose_vertices"),
+            (n_("Irregular"), "irregular_vertices"),
+            (n_("Boundary"), "boundary_vertices"),
+            (n_("Non-Manifold"), "non_manifold_vertices"),
+            (n_("Loose"), "loose_vertices"),
         ):
             if getattr(report, name):
                 draw_value(column, label, f"{getattr(report, name):,}")
@@ -46,7 +50,7 @@ class VIEW3D_PT_framelet_last_run(FrameletPanel, bpy.types.Panel):
             draw_lengths(column, context.scene, "Noise", report.noise_sigma, report.noise_sigma_edges)
             if report.is_impulsive:
                 draw_value(column, "", "Impulsive")
-        for label, text in (("Chosen", report.recipe), ("From Noise", report.parameters)):
+        for label, text in ((n_("Chosen"), report.recipe), (n_("From Noise"), report.parameters)):
             if text:
                 draw_value(column, label, text)
         draw_value(column, "Iterations", str(report.iterations))
@@ -68,7 +72,7 @@ class VIEW3D_PT_framelet_noise(FrameletPanel, bpy.types.Panel):
         if not entry:
             return
         column = self.layout.column(align=True)
-        label = "Noise Before" if entry.is_denoised else "Noise"
+        label = n_("Noise Before") if entry.is_denoised else n_("Noise")
         draw_lengths(column, context.scene, label, entry.sigma, entry.sigma_edges)
         if entry.is_impulsive:
             draw_value(column, "", "Impulsive")

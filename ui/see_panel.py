@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import bpy
+from bpy.app.translations import pgettext_n as n_
 
 from ..operators import band_storage
 from ..operators.before_after import OBJECT_OT_framelet_before_after
@@ -13,7 +14,10 @@ from ..operators.heat_settings import HEAT_NAMES, shown_heat_names
 from ..operators.setting_values import copy_values
 from .layouts import FrameletPanel, settings_column
 
-BUTTONS = (("NORMAL", "Heat Map", "COLOR"), ("ANGLE", "Angle Change", "DRIVER_ROTATIONAL_DIFFERENCE"))
+BUTTONS = (
+    ("NORMAL", n_("Heat Map", "Operator"), "COLOR"),
+    ("ANGLE", n_("Angle Change", "Operator"), "DRIVER_ROTATIONAL_DIFFERENCE"),
+)
 """Quantities that have a button of their own, with words and icons."""
 
 

@@ -12,7 +12,7 @@ from framelet.core.automatic.recipes import RECIPES
 from framelet.core.normals.pilot import COUPLING
 from framelet.operators.chosen_values import chosen_texts
 
-NAMES = ["chosen_frame", "chosen_levels", "chosen_lambda", "chosen_mu"]
+NAMES = ["chosen_recipe", "chosen_frame", "chosen_levels", "chosen_lambda", "chosen_mu"]
 
 
 def texts(recipe="", noise="measured", **settings):
@@ -39,11 +39,11 @@ def test_the_mean_of_two_recipes_names_both(one, other):
     alone = [texts(recipe.label, method="AUTO") for recipe in RECIPES if recipe in (one, other)]
     for name in NAMES:
         values = [each[name] for each in alone if each[name]]
-        assert found[name] == ", ".join(dict.fromkeys(values))
+        assert found[name] == "\n".join(dict.fromkeys(values))
 
 
 def test_clean_meshes_chose_nothing():
-    assert texts(CLEAN, method="AUTO") == {}
+    assert texts(CLEAN, method="AUTO") == {"chosen_recipe": CLEAN}
 
 
 def test_the_noise_gives_two_numbers():

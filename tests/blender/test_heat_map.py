@@ -28,6 +28,11 @@ def torus(make_object, rng):
     return obj
 
 
+def write_and_remember(obj, surface, vertices):
+    mesh_bridge.write_vertices(obj, surface, vertices)
+    run_memory.remember(obj, surface, {})
+
+
 def shown():
     return bpy.context.window_manager.framelet_band_range
 
@@ -61,7 +66,7 @@ def test_a_sphere_that_grows_is_red_and_one_that_shrinks_is_blue():
     obj = bpy.context.object
     surface = mesh_bridge.read_surface(obj)
     for factor, sign in ((1.25, 1), (0.75, -1)):
-        run_memory.write_and_remember(obj, surface, surface.vertices * factor)
+        write_and_remember(obj, surface, surface.vertices * factor)
         values = heat_values(obj, "NORMAL").values
         radius = np.linalg.norm(surface.vertices, axis=1)
         assert np.allclose(values, sign * 0.25 * radius, rtol=0.02)
@@ -123,7 +128,7 @@ def test_faces_without_area_did_not_turn(make_object):
     surface = mesh_bridge.read_surface(obj)
     flat = surface.vertices.copy()
     flat[:, 0] = 0.0
-    run_memory.write_and_remember(obj, surface, flat)
+    write_and_remember(obj, surface, flat)
     assert (heat_values(obj, "ANGLE").values == 0).all()
     assert np.isfinite(heat_values(obj, "NORMAL").values).all()
 

@@ -12,10 +12,11 @@ from drawing import draw
 from framelet.core.settings import PRESETS
 from framelet.operators import band_settings, mesh_facts, setting_values
 from framelet.ui import band_panels, panel, report_panels, see_panel
+from framelet.ui.layouts import FrameletPanel
 
 
 def test_panels_are_registered_in_one_tab():
-    panels = [each for each in framelet.ui.classes if issubclass(each, bpy.types.Panel)]
+    panels = [each for each in framelet.ui.classes if issubclass(each, FrameletPanel)]
     for each in panels:
         assert each.is_registered
         assert (each.bl_category, each.bl_region_type, each.bl_space_type) == ("Framelet", "UI", "VIEW_3D")
@@ -81,12 +82,16 @@ def test_the_automatic_panel_shows_grayed_what_the_run_chose():
     shown = draw(panel.VIEW3D_PT_framelet)
     entry = bpy.context.window_manager.framelet_estimate.objects["Suzanne"]
     rows = table(shown["label"])
-    assert list(rows) == CHOSEN and shown["grayed"] == shown["label"]
-    assert rows["Chosen"] == bpy.context.window_manager.framelet_report.recipe != ""
+    assert [label for label in rows if label] == CHOSEN and shown["grayed"] == shown["label"]
+    assert bpy.context.window_manager.framelet_report.recipe.startswith(rows["Chosen"])
     names = ("frame", "levels", "lambda", "mu")
-    assert [rows[label] or "–" for label in CHOSEN[1:]] == [
-        getattr(entry, f"chosen_{name}") or "–" for name in names
+    assert [rows[label] for label in CHOSEN[1:]] == [
+        getattr(entry, f"chosen_{name}").partition("\n")[0] or "–" for name in names
     ]
+    entry.chosen_recipe, entry.chosen_lambda = "Soft\nFlat and sharp", ""
+    labels = draw(panel.VIEW3D_PT_framelet)["label"]
+    assert labels[:4] == ["Chosen", "Soft", "", "Flat and sharp"]
+    assert labels[labels.index("Smoothing λ") + 1] == "–"
     bpy.ops.mesh.primitive_cube_add()
     assert table(draw(panel.VIEW3D_PT_framelet)["label"])["Chosen"] == "At the next run"
 

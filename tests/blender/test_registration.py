@@ -82,7 +82,7 @@ new = sorted(set(sys.modules) - before)
 package.unregister()
 core = [name for name in new if name.startswith("framelet.core")]
 names = [name.removeprefix("framelet.core").strip(".") for name in core]
-assert names == ["", "choices", "frame_catalog", "settings"], core
+assert names == ["", "choices", "frame_catalog", "region_options", "setting_info", "settings"], core
 assert "numpy" not in new, new
 """
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=120)

@@ -1,0 +1,58 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The one run that may be going on, for all that has to know of it: operators, panels and handlers."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bpy.app.translations import pgettext_n as n_
+
+if TYPE_CHECKING:
+    from .denoise_run import DenoiseRun
+
+IS_RUNNING = n_("Framelet is running; press Esc or the right mouse button to cancel")
+
+_run: DenoiseRun | None = None
+
+
+def current_run() -> DenoiseRun | None:
+    """Return the run that is going on, or None."""
+    return _run if _run is not None and _run.is_active else None
+
+
+def set_current(run: DenoiseRun) -> None:
+    """Make a run the current one.
+
+    Raises
+    ------
+    ValueError
+        In one sentence, if another one is going on.
+    """
+    global _run
+    if current_run() is not None:
+        raise ValueError(f"{IS_RUNNING}.")
+    _run = run
+
+
+def drop_current(change: str) -> None:
+    """Give up the run that is going on, if there is one, because of what happened."""
+    run = current_run()
+    if run is not None:
+        run.drop(change)
+
+
+def touch_current() -> None:
+    """Have the run that is going on, if there is one, look at its meshes in detail."""
+    run = current_run()
+    if run is not None:
+        run.touch()
+
+
+def stop_current() -> None:
+    """Cancel the last run and wait until its thread has ended."""
+    global _run
+    if _run is not None:
+        _run.cancel()
+        _run.wait()
+        _run = None
