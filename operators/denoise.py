@@ -7,13 +7,11 @@ from __future__ import annotations
 import bpy
 
 from . import targets
+from .current_preview import end_preview
 from .current_run import IS_RUNNING, current_run, set_current
+from .denoise_report import report_written
 from .denoise_run import DenoiseRun, State, begin_run
-from .filled_reports import fill_estimate_of_run, fill_report
-from .output import select_instead
-from .report import FrameletReport
 from .run_display import RunDisplay
-from .scene_units import length_text, noise_text
 from .setting_values import PROPERTY_NAMES, fill, has_effect, is_replaced, to_settings
 from .settings import OutputMixin, SettingsMixin
 
@@ -101,6 +99,7 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, bpy.types.Operator)
         settings = to_settings(self)
         # The panel for adjusting the last operation shows the values that were used, defaults included.
         fill(self, settings)
+        end_preview()
         try:
             self._run: DenoiseRun = begin_run(targets.target_objects(context), settings, self.output)
             set_current(self._run)
@@ -128,18 +127,7 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, bpy.types.Operator)
         written = run.finish()
         if run.failures:
             self.report({"WARNING"}, " ".join(run.failures))
-        select_instead(context.view_layer, [(item.original, item.obj) for item in written])
-        measured = {item.obj.name: item.measured for item in written}
-        report = context.window_manager.framelet_report
-        fill_report(report, measured)
-        fill_estimate_of_run(context.window_manager.framelet_estimate, measured)
-        self.report(
-            {"INFO"},
-            f"Denoised {targets.names_text(list(measured))}: {report.n_moved:,} of {report.n_vertices:,} "
-            f"vertices moved, {length_text(context.scene, report.displacement_rms)} RMS "
-            f"({report.displacement_rms_edges:.3f} edge lengths), in {report.seconds:.2f} s"
-            f"{_noise_words(context.scene, report)}",
-        )
+        report_written(self, context, written)
         return {"FINISHED"}
 
 
@@ -161,12 +149,3 @@ class OBJECT_OT_framelet_cancel(bpy.types.Operator):
         """Cancel; the operator that is in charge of the run ends at its next tick."""
         current_run().cancel()
         return {"FINISHED"}
-
-
-def _noise_words(scene: bpy.types.Scene, report: FrameletReport) -> str:
-    """Say which noise was measured and what was made of it; nothing if it was not measured."""
-    if not report.has_noise:
-        return ""
-    noise = noise_text(scene, report.noise_sigma, report.noise_sigma_edges, report.is_impulsive)
-    taken = report.recipe or report.parameters
-    return f"; noise {noise}" + (f"; used {taken}" if taken else "")

@@ -14,6 +14,7 @@ from .compare import OBJECT_OT_framelet_compare
 from .denoise import OBJECT_OT_framelet_cancel, OBJECT_OT_framelet_denoise
 from .equalize import OBJECT_OT_framelet_equalize
 from .estimate_noise import OBJECT_OT_framelet_estimate_noise
+from .preview import OBJECT_OT_framelet_apply_preview, OBJECT_OT_framelet_preview
 from .report import (
     FrameletBandRange,
     FrameletComparison,
@@ -36,6 +37,8 @@ classes = (
     FrameletEqualizer,
     OBJECT_OT_framelet_denoise,
     OBJECT_OT_framelet_cancel,
+    OBJECT_OT_framelet_preview,
+    OBJECT_OT_framelet_apply_preview,
     OBJECT_OT_framelet_estimate_noise,
     OBJECT_OT_framelet_add_noise,
     OBJECT_OT_framelet_compare,

@@ -10,6 +10,7 @@ from typing import TypeVar
 import bpy
 
 from .band_storage import has_note
+from .current_preview import end_preview
 
 Result = TypeVar("Result")
 Progress = Callable[[float, float], bool]
@@ -68,6 +69,7 @@ def run_on_targets(
     dict
         The results by object name; empty if nothing was done.
     """
+    end_preview()  # what it shows is not what the mesh is
     objects = target_objects(context)
     results: dict[str, Result] = {}
     failures: list[str] = []

@@ -14,7 +14,7 @@ from ..operators.estimate_noise import OBJECT_OT_framelet_estimate_noise
 from ..operators.setting_values import copy_settings, has_effect
 from . import band_panels, output_panel
 from .layouts import FrameletPanel, draw_lengths, draw_settings, draw_value
-from .run_rows import draw_progress
+from .run_rows import draw_preview, draw_progress
 
 MAIN_NAMES = (
     "method",
@@ -58,6 +58,7 @@ class VIEW3D_PT_framelet(FrameletPanel, bpy.types.Panel):
         row.scale_y = 1.5
         copy_settings(settings, row.operator(OBJECT_OT_framelet_denoise.bl_idname, icon="MOD_SMOOTH"))
         draw_progress(layout)
+        draw_preview(layout)
         layout.operator(OBJECT_OT_framelet_estimate_noise.bl_idname, icon="RNDCURVE")
         _draw_noise(layout, context)
         draw_settings(layout, settings, MAIN_NAMES, context.active_object)

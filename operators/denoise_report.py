@@ -1,0 +1,48 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tell people what a run did: the properties that the sidebar shows, a sentence, and the selection."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from .filled_reports import fill_estimate_of_run, fill_report
+from .output import select_instead
+from .scene_units import length_text, noise_text
+from .targets import names_text
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    import bpy
+
+    from .denoise_run import Written
+    from .report import FrameletReport
+
+
+def report_written(
+    operator: bpy.types.Operator, context: bpy.types.Context, written: Iterable[Written]
+) -> None:
+    """Fill the report of the last run, select new objects, and have the operator report a sentence."""
+    written = list(written)
+    select_instead(context.view_layer, [(item.original, item.obj) for item in written])
+    measured = {item.obj.name: item.measured for item in written}
+    report = context.window_manager.framelet_report
+    fill_report(report, measured)
+    fill_estimate_of_run(context.window_manager.framelet_estimate, measured)
+    operator.report(
+        {"INFO"},
+        f"Denoised {names_text(list(measured))}: {report.n_moved:,} of {report.n_vertices:,} "
+        f"vertices moved, {length_text(context.scene, report.displacement_rms)} RMS "
+        f"({report.displacement_rms_edges:.3f} edge lengths), in {report.seconds:.2f} s"
+        f"{_noise_words(context.scene, report)}",
+    )
+
+
+def _noise_words(scene: bpy.types.Scene, report: FrameletReport) -> str:
+    """Say which noise was measured and what was made of it; nothing if it was not measured."""
+    if not report.has_noise:
+        return ""
+    noise = noise_text(scene, report.noise_sigma, report.noise_sigma_edges, report.is_impulsive)
+    taken = report.recipe or report.parameters
+    return f"; noise {noise}" + (f"; used {taken}" if taken else "")
