@@ -261,13 +261,13 @@ def test_denoise_works_on_the_original(settings):
 
 def test_other_operators_work_on_the_original(settings):
     obj, twin = monkey("A"), monkey("B")
-    bpy.ops.object.framelet_add_noise(strength=0.1, seed=3)
+    bpy.ops.object.framelet_add_noise(sigma=0.1, seed=3)
     expected = points(twin.data)
     bpy.context.view_layer.objects.active = obj
     obj.select_set(True)
     twin.select_set(False)
     settle(turn_on())
-    bpy.ops.object.framelet_add_noise(strength=0.1, seed=3)
+    bpy.ops.object.framelet_add_noise(sigma=0.1, seed=3)
     assert same(points(obj.data), expected)
 
 
