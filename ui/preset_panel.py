@@ -9,6 +9,7 @@ from bl_ui.utils import PresetPanel
 
 from ..core.settings import PRESETS
 from ..operators.presets import PRESET_FOLDER, OBJECT_OT_framelet_preset_add
+from ..operators.setting_values import write_quietly
 
 
 class VIEW3D_PT_framelet_presets(PresetPanel, bpy.types.Panel):
@@ -43,7 +44,7 @@ def draw_add(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
     row = layout.row(align=True)
     row.prop(context.window_manager, "preset_name", text="")
     operator = row.operator(OBJECT_OT_framelet_preset_add.bl_idname, text="", icon="ADD")
-    operator.name = context.window_manager.preset_name
+    write_quietly(operator, "name", context.window_manager.preset_name)
 
 
 classes = (VIEW3D_PT_framelet_presets,)
