@@ -17,8 +17,8 @@ BANDS = "Analyze a selected mesh first: none has stored bands"
 PREVIEW_OFF = "The live preview is off"
 NOT_RUNNING = "Framelet is not running"
 
-# What each operator says of an empty scene, of a camera, of a mesh, of a mesh in Sculpt Mode, and of one in Edit
-# Mode; None where it can be used.
+# What each operator says of an empty scene, of a camera, of a mesh, of a mesh in Sculpt Mode, and of one in
+# Edit Mode; None where it can be used.
 REASONS = {
     "denoise": (SELECT, SELECT, None, OBJECT_OR_EDIT, None),
     "estimate_noise": (SELECT, SELECT, None, OBJECT_OR_EDIT, None),
