@@ -69,19 +69,20 @@ def finish(
     motion = Motion(found, carrier, region, movable, weights, pinned)
     watch = FaceWatch(carrier, blocks)
     shares = np.ones(found.shape[1])
-    if not motion.has_offset:
-        vertices = _settled(motion.at(), shares, watch, region, blocks)
+    vertices = _settled(motion.at(), shares, watch, region, blocks)
+    if not (region.keep_volume and carrier.connectivity.is_closed):
         return Finished(vertices, watch, _n_damped(motion.at(), shares))
+    area = watch.area_before * motion.allow_offset(shares)
 
     def volume_at(offset: float) -> float:
         return watch.volume_at(carrier.moved(motion.at(offset) * shares, blocks))
 
     offset = 0.0
     for _ in range(VOLUME_ROUNDS):
-        offset = volume_offset(volume_at, watch.volume_before, watch.area_before * motion.mean_share, offset)
-        n_damped = np.count_nonzero(shares < 1.0), shares.sum()
+        offset = volume_offset(volume_at, watch.volume_before, area, offset)
+        before = shares.copy()
         vertices = _settled(motion.at(offset), shares, watch, region, blocks)
-        if n_damped == (np.count_nonzero(shares < 1.0), shares.sum()):
+        if np.array_equal(before, shares):
             break
     return Finished(vertices, watch, _n_damped(motion.at(offset), shares))
 

@@ -44,34 +44,43 @@ class Motion:
         surface = carrier.topology
         self._found = found
         self._edge = carrier.edge
+        self._surface = surface
         self._limit = region.max_displacement
+        self._weights, self._pinned = weights, pinned
+        self._normals: NDArray[np.float64] | None = None
         self._direction: NDArray[np.float64] | None = None
-        if movable is not None or region.along_normals or region.keep_volume:
+        if movable is not None or region.along_normals:
             # Those of the denoised surface, which is as smooth as it will be.
-            # In edge lengths, so that squares of areas are within the range of numbers.
-            normals = vertex_normals(surface.with_vertices((surface.vertices + found.T) / carrier.edge))
-            normals = np.ascontiguousarray(normals.T)
+            normals = self._normals_after(found)
         if movable is not None:
             fade_shift_in(found, normals, ~movable, pinned, surface.edges)
         if region.along_normals:
             found[:] = normals * np.einsum("cn,cn->n", normals, found)
+            self._normals = normals
         if weights is not None:
             found *= weights
-        if region.keep_volume and carrier.connectivity.is_closed:
-            stays = np.zeros(surface.n_vertices, bool)
-            stays[pinned] = True
-            share = faded_in(rings_beside(stays, surface.edges))
-            self._direction = normals * (carrier.edge * (share if weights is None else share * weights))
 
-    @property
-    def has_offset(self) -> bool:
-        """Whether an offset can do something."""
-        return self._direction is not None and bool(self._direction.any())
+    def allow_offset(self, shares: NDArray[np.float64]) -> float:
+        """Choose the directions of the offset: the normals after the displacements, beside pins fading in.
 
-    @property
-    def mean_share(self) -> float:
-        """Mean share that the vertices have in the offset."""
-        return 0.0 if self._direction is None else float(self._lengths(self._direction).mean())
+        Parameters
+        ----------
+        shares : ndarray, shape (n,)
+            Share of its displacement that each vertex makes.
+
+        Returns
+        -------
+        float
+            Mean share that the vertices have in the offset.
+        """
+        normals = self._normals_after(self.at() * shares) if self._normals is None else self._normals
+        stays = np.zeros(self._surface.n_vertices, bool)
+        stays[self._pinned] = True
+        share = faded_in(rings_beside(stays, self._surface.edges))
+        if self._weights is not None:
+            share *= self._weights
+        self._direction = normals * (self._edge * share)
+        return float(share.mean())
 
     def at(self, offset: float = 0.0) -> NDArray[np.float64]:
         """Return the displacements, shape (3, n), with an offset along the normals in mean edge lengths."""
@@ -82,6 +91,12 @@ class Motion:
             return moved
         length, limit = self._lengths(moved), self._limit / self._edge
         return moved * np.divide(limit, length, out=np.ones_like(length), where=length > limit)
+
+    def _normals_after(self, displacement: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the unit normals of vertices after a displacement, shape (3, n)."""
+        # In edge lengths, so that squares of areas are within the range of numbers.
+        points = (self._surface.vertices + displacement.T) / self._edge
+        return np.ascontiguousarray(vertex_normals(self._surface.with_vertices(points)).T)
 
     def _lengths(self, vectors: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the lengths of vectors, shape (3, n), in mean edge lengths."""
