@@ -5,12 +5,16 @@
 from __future__ import annotations
 
 import bpy
+from bpy.app.translations import pgettext_n as n_
+from bpy.app.translations import pgettext_rpt as rpt_
 
 from . import targets
 from .current_preview import end_preview
 from .current_run import IS_RUNNING, current_run, set_current
 from .denoise_report import report_written
 from .denoise_run import DenoiseRun, State, begin_run
+from .region_settings import RegionMixin
+from .region_values import shown_region_names, to_region_options
 from .run_display import RunDisplay
 from .setting_values import PROPERTY_NAMES, fill, has_effect, is_replaced, to_settings
 from .settings import OutputMixin, SettingsMixin
@@ -18,10 +22,10 @@ from .settings import OutputMixin, SettingsMixin
 TICK = 0.05
 """Seconds between two looks at a run."""
 
-CANCELED = "Canceled; nothing was changed"
+CANCELED = n_("Canceled; nothing was changed")
 
 
-class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, bpy.types.Operator):
+class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, RegionMixin, bpy.types.Operator):
     """Remove noise from the selected meshes; in Edit Mode only the selected vertices move"""
 
     bl_idname = "object.framelet_denoise"
@@ -31,10 +35,7 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, bpy.types.Operator)
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Ask for a selected mesh, in Object Mode or Edit Mode, and for no run that is going on."""
-        reason = IS_RUNNING if current_run() else targets.poll_reason(context)
-        if reason is not None:
-            cls.poll_message_set(reason)
-        return reason is None
+        return targets.allows(cls, IS_RUNNING if current_run() else targets.poll_reason(context))
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Show, when adjusting the last operation, the settings that the method uses."""
@@ -47,6 +48,8 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, bpy.types.Operator)
                 row.active = not is_replaced(self.method, self.tuning, name)
                 row.prop(self, name)
         layout.prop(self, "output")
+        for name in shown_region_names(self):
+            layout.prop(self, name)
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         """Start the run on a thread and stay in charge of it; without a window, run at once."""
@@ -101,7 +104,9 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, bpy.types.Operator)
         fill(self, settings)
         end_preview()
         try:
-            self._run: DenoiseRun = begin_run(targets.target_objects(context), settings, self.output)
+            self._run: DenoiseRun = begin_run(
+                targets.target_objects(context), settings, self.output, to_region_options(self)
+            )
             set_current(self._run)
         except ValueError as error:
             self.report({"ERROR"}, str(error))
@@ -119,7 +124,7 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, bpy.types.Operator)
         """Write what came of the run, and report it."""
         run = self._run
         if run.state is State.CANCELED:
-            self.report({"INFO"}, CANCELED)
+            self.report({"INFO"}, rpt_(CANCELED))
             return {"CANCELLED"}
         if run.state is State.FAILED:
             self.report({"ERROR"}, run.reason)
@@ -141,9 +146,7 @@ class OBJECT_OT_framelet_cancel(bpy.types.Operator):
     @classmethod
     def poll(cls, _context: bpy.types.Context) -> bool:
         """Ask for a run."""
-        if current_run() is None:
-            cls.poll_message_set("Framelet is not running")
-        return current_run() is not None
+        return targets.allows(cls, n_("Framelet is not running") if current_run() is None else None)
 
     def execute(self, _context: bpy.types.Context) -> set[str]:
         """Cancel; the operator that is in charge of the run ends at its next tick."""

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from ..core import SurfaceMesh
+    from ..core import Region, SurfaceMesh
     from ..core.denoising.report import Callback, DenoiseReport
     from ..core.settings import DenoiseSettings
 
@@ -39,8 +39,9 @@ class DenoiseJob:
     linear : ndarray, shape (3, 3), float64
         Rotation and scale of the object, for lengths in scene units.
     movable : ndarray of bool, shape (N,), or None
-        Vertices that may move; None for all. What else limits a run to a part of the mesh stands beside it,
-        is read by `read_job` and handed to `core.denoise` by `compute`.
+        Vertices that may move; None for all.
+    region : Region or None
+        What else limits the run.
     output : str
         One of `output.OUTPUTS`, where the result goes.
     """
@@ -50,6 +51,7 @@ class DenoiseJob:
     settings: DenoiseSettings
     linear: NDArray[np.float64]
     movable: NDArray[np.bool_] | None = None
+    region: Region | None = None
     output: str = "IN_PLACE"
 
 
@@ -104,6 +106,7 @@ def compute(
                 job.surface,
                 job.settings,
                 movable=job.movable,
+                region=job.region,
                 callback=callback,
                 should_stop=should_stop,
                 prepared=cache,

@@ -9,10 +9,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from . import mesh_bridge
+from ..core.region_options import RegionOptions
+from . import run_memory
 from .denoise_job import DenoiseJob, DenoiseOutcome, MeasuredReport, compute
-from .output import IN_PLACE, refusal, write_output
+from .output import IN_PLACE, SHAPE_KEY, refusal, write_output
+from .region_bridge import read_region
 from .scene_units import linear_part
+from .shape_keys import read_followers
 
 if TYPE_CHECKING:
     import bpy
@@ -21,7 +24,12 @@ if TYPE_CHECKING:
     from ..core.settings import DenoiseSettings
 
 
-def read_job(obj: bpy.types.Object, settings: DenoiseSettings, output: str = IN_PLACE) -> DenoiseJob:
+def read_job(
+    obj: bpy.types.Object,
+    settings: DenoiseSettings,
+    output: str = IN_PLACE,
+    options: RegionOptions | None = None,
+) -> DenoiseJob:
     """Read what a run needs of an object.
 
     Parameters
@@ -32,19 +40,19 @@ def read_job(obj: bpy.types.Object, settings: DenoiseSettings, output: str = IN_
         What will be done.
     output : str
         One of `output.OUTPUTS`.
+    options : RegionOptions, optional
+        What limits the run; by default selection and hidden vertices alone.
 
     Raises
     ------
     ValueError
-        With a sentence that names the object, if it cannot be edited or nothing is selected.
+        With a sentence that names the object, if it cannot be edited or nothing may move.
     """
     reason = refusal(obj, output)
     if reason is not None:
         raise ValueError(reason)
-    surface, movable = mesh_bridge.read_surface_and_movable(obj)
-    if movable is not None and not movable.any():
-        raise ValueError(f"‘{obj.name}’ has no selected vertices; select what should be denoised.")
-    return DenoiseJob(obj.name, surface, settings, linear_part(obj), movable, output)
+    surface, movable, region = read_region(obj, options or RegionOptions())
+    return DenoiseJob(obj.name, surface, settings, linear_part(obj), movable, region, output)
 
 
 def write_outcome(obj: bpy.types.Object, job: DenoiseJob, outcome: DenoiseOutcome) -> bpy.types.Object:
@@ -64,7 +72,10 @@ def write_outcome(obj: bpy.types.Object, job: DenoiseJob, outcome: DenoiseOutcom
     bpy.types.Object
         The object that has the result: the same, or a new one.
     """
-    return write_output(obj, job.surface, outcome.vertices, job.output)
+    followers = {} if job.output == SHAPE_KEY else read_followers(obj)
+    written = write_output(obj, job.surface, outcome.vertices, job.output)
+    run_memory.remember(written, job.surface, followers)
+    return written
 
 
 class DenoisedObject(NamedTuple):
@@ -79,6 +90,7 @@ def denoise_object(
     settings: DenoiseSettings,
     callback: Callback | None = None,
     output: str = IN_PLACE,
+    options: RegionOptions | None = None,
 ) -> DenoiseReport:
     """Denoise the mesh of an object; in Edit Mode only the selected vertices.
 
@@ -92,6 +104,8 @@ def denoise_object(
         `callback(fraction, change)`, called after each iteration; returns True to stop.
     output : str
         Where the result goes, one of `output.OUTPUTS`.
+    options : RegionOptions, optional
+        What limits the run to parts of the mesh, and how far vertices may move.
 
     Returns
     -------
@@ -103,7 +117,7 @@ def denoise_object(
     ValueError
         With a sentence that begins with the object's name. Everything is as it was.
     """
-    return denoise_and_measure(obj, settings, callback, output).measured.report
+    return denoise_and_measure(obj, settings, callback, output, options).measured.report
 
 
 def denoise_and_measure(
@@ -111,9 +125,10 @@ def denoise_and_measure(
     settings: DenoiseSettings,
     callback: Callback | None = None,
     output: str = IN_PLACE,
+    options: RegionOptions | None = None,
 ) -> DenoisedObject:
     """Denoise as `denoise_object` does, say which object has the result, and measure with its scale too."""
-    job = read_job(obj, settings, output)
+    job = read_job(obj, settings, output, options)
     outcome = compute(job, callback)
     if not outcome.measured.report.is_stopped:
         obj = write_outcome(obj, job, outcome)

@@ -6,7 +6,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from bpy.app.translations import pgettext_rpt as rpt_
+
 from .filled_reports import fill_estimate_of_run, fill_report
+from .heat_map import refresh_heat
 from .output import select_instead
 from .scene_units import length_text, noise_text
 from .targets import names_text
@@ -30,12 +33,21 @@ def report_written(
     report = context.window_manager.framelet_report
     fill_report(report, measured)
     fill_estimate_of_run(context.window_manager.framelet_estimate, measured)
+    refresh_heat(context, [item.obj for item in written])
     operator.report(
         {"INFO"},
-        f"Denoised {names_text(list(measured))}: {report.n_moved:,} of {report.n_vertices:,} "
-        f"vertices moved, {length_text(context.scene, report.displacement_rms)} RMS "
-        f"({report.displacement_rms_edges:.3f} edge lengths), in {report.seconds:.2f} s"
-        f"{_noise_words(context.scene, report)}",
+        rpt_(
+            "Denoised {names}: {moved:,} of {total:,} vertices moved, {length} RMS "
+            "({edges:.3f} edge lengths), in {seconds:.2f} s"
+        ).format(
+            names=names_text(list(measured)),
+            moved=report.n_moved,
+            total=report.n_vertices,
+            length=length_text(context.scene, report.displacement_rms),
+            edges=report.displacement_rms_edges,
+            seconds=report.seconds,
+        )
+        + _noise_words(context.scene, report),
     )
 
 
@@ -45,4 +57,5 @@ def _noise_words(scene: bpy.types.Scene, report: FrameletReport) -> str:
         return ""
     noise = noise_text(scene, report.noise_sigma, report.noise_sigma_edges, report.is_impulsive)
     taken = report.recipe or report.parameters
-    return f"; noise {noise}" + (f"; used {taken}" if taken else "")
+    words = rpt_("; noise {noise}").format(noise=noise)
+    return words + (rpt_("; used {what}").format(what=taken) if taken else "")

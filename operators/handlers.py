@@ -10,6 +10,7 @@ from bpy.app.handlers import persistent
 from . import current_preview, kept_original
 from .current_run import drop_current, stop_current, touch_current
 from .preparations import forget_preparations
+from .run_memory import forget_runs
 
 
 @persistent
@@ -31,6 +32,7 @@ def _before_load(*_: object) -> None:
     drop_current("Another file was opened")
     current_preview.leave_preview()
     forget_preparations()
+    forget_runs()
 
 
 @persistent
@@ -92,3 +94,4 @@ def unregister() -> None:
     stop_current()
     current_preview.stop_preview()
     forget_preparations()
+    forget_runs()

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Blender meshes as arrays and back: with `band_storage` the only file that reads or writes mesh data.
+"""Blender meshes as arrays and back: with `band_storage` and `shape_keys` all that touches mesh data.
+
+What limits a run to parts of a mesh is read through it by `region_bridge`.
 
 In Object Mode the arrays come from the mesh, in Edit Mode from the BMesh of the edit session. With shape keys
 the active key is what is read and edited, as in Blender's own Edit Mode. Nothing but positions is written.
@@ -8,10 +10,20 @@ the active key is what is read and edited, as in Blender's own Edit Mode. Nothin
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 import bmesh
 import bpy
+
+from .shape_keys import (
+    active_key,
+    dependent_keys,
+    read_key_points,
+    write_key_points,
+    write_positions,
+)
 
 if TYPE_CHECKING:
     import numpy as np
@@ -97,15 +109,25 @@ def read_surface_and_movable(obj: bpy.types.Object) -> tuple[SurfaceMesh, NDArra
     movable : ndarray of bool, shape (N,), or None
         True for the selected vertices that are not hidden; None, for all, in Object Mode.
     """
+    with readable_mesh(obj) as mesh:
+        if not obj.data.is_editmode:
+            return read_arrays(mesh, active_key(obj)), None
+        movable = read_flag(mesh, ".select_vert") & ~read_flag(mesh, ".hide_vert")
+        return read_arrays(mesh, None), movable
+
+
+@contextmanager
+def readable_mesh(obj: bpy.types.Object) -> Iterator[bpy.types.Mesh]:
+    """Give a mesh whose arrays can be read: the object's own, in Edit Mode a copy of the edit session."""
     mesh = obj.data
     if not mesh.is_editmode:
-        return _read_arrays(mesh, active_key(obj)), None
+        yield mesh
+        return
     # A temporary mesh gives arrays without a Python loop over the BMesh.
     temporary = bpy.data.meshes.new(".framelet")
     try:
         bmesh.from_edit_mesh(mesh).to_mesh(temporary)
-        movable = _read_flag(temporary, ".select_vert") & ~_read_flag(temporary, ".hide_vert")
-        return _read_arrays(temporary, None), movable
+        yield temporary
     finally:
         bpy.data.meshes.remove(temporary)
 
@@ -185,29 +207,29 @@ def write_vertices(obj: bpy.types.Object, before: SurfaceMesh, vertices: NDArray
         return
     active = active_key(obj)
     if active is None:
-        _write_array(mesh, positions)
+        write_positions(mesh, positions)
     else:
-        _write_key_points(active, positions)
-        dependent = _dependent_keys(mesh.shape_keys, active)
+        write_key_points(active, positions)
+        dependent = dependent_keys(mesh.shape_keys, active)
         offset = positions[moved] - before.vertices[moved]
         for key in dependent:
-            shifted = _read_key_points(key)
+            shifted = read_key_points(key)
             shifted[moved] += offset
-            _write_key_points(key, shifted)
+            write_key_points(key, shifted)
         reference = mesh.shape_keys.reference_key
         if reference in [active, *dependent]:
-            _write_array(mesh, _read_key_points(reference))
+            write_positions(mesh, read_key_points(reference))
     mesh.update()
 
 
 def write_key(key: bpy.types.ShapeKey, before: SurfaceMesh, vertices: NDArray[np.floating]) -> None:
     """Write positions to one shape key; vertices that did not move have the bits they had when read."""
-    _write_key_points(key, _moved(before, vertices)[1])
+    write_key_points(key, _moved(before, vertices)[1])
 
 
-def write_positions(mesh: bpy.types.Mesh, positions: NDArray[np.float32]) -> None:
+def show_positions(mesh: bpy.types.Mesh, positions: NDArray[np.float32]) -> None:
     """Write the positions of all vertices, shape (N, 3), of a mesh in Object Mode without shape keys."""
-    _write_array(mesh, positions)
+    write_positions(mesh, positions)
     mesh.update()
 
 
@@ -241,14 +263,14 @@ def _write_edit_mesh(mesh: bpy.types.Mesh, moved: NDArray[np.intp], vertices: ND
     bmesh.update_edit_mesh(mesh, loop_triangles=True, destructive=False)
 
 
-def _read_arrays(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey | None) -> SurfaceMesh:
+def read_arrays(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey | None) -> SurfaceMesh:
     """Read the arrays of a mesh, with the positions of a shape key if one is given."""
     import numpy as np
 
     from ..core import SurfaceMesh
 
     n_corners, n_faces = len(mesh.loops), len(mesh.polygons)
-    vertices = read_positions(mesh) if key is None else _read_key_points(key)
+    vertices = read_positions(mesh) if key is None else read_key_points(key)
     edges = np.empty((len(mesh.edges), 2), np.int32)
     mesh.edges.foreach_get("vertices", edges.reshape(-1))
     corner_vertex = np.empty(n_corners, np.int32)
@@ -271,7 +293,7 @@ def read_positions(mesh: bpy.types.Mesh) -> NDArray[np.float32]:
     return vertices
 
 
-def _read_flag(mesh: bpy.types.Mesh, name: str) -> NDArray[np.bool_]:
+def read_flag(mesh: bpy.types.Mesh, name: str) -> NDArray[np.bool_]:
     """Read a vertex attribute of truth values; Blender leaves it away when all are false."""
     import numpy as np
 
@@ -282,46 +304,12 @@ def _read_flag(mesh: bpy.types.Mesh, name: str) -> NDArray[np.bool_]:
     return values
 
 
-def _write_array(mesh: bpy.types.Mesh, positions: NDArray[np.float32]) -> None:
-    """Write the positions of the mesh itself."""
-    mesh.attributes["position"].data.foreach_set("vector", positions.reshape(-1))
-
-
-def active_key(obj: bpy.types.Object) -> bpy.types.ShapeKey | None:
-    """Return the shape key that is read and edited; None without shape keys."""
-    keys = obj.data.shape_keys
-    if keys is None:
-        return None
-    return obj.active_shape_key or keys.reference_key
-
-
-def _dependent_keys(keys: bpy.types.Key, active: bpy.types.ShapeKey) -> list[bpy.types.ShapeKey]:
-    """Return the keys that are relative to a key, directly or through others."""
-    if not keys.use_relative:
-        return []
-    dependent: list[bpy.types.ShapeKey] = []
-    found = [active]
-    while found:
-        base = found.pop()
-        followers = [
-            key
-            for key in keys.key_blocks
-            if key.relative_key == base and key != active and key not in dependent
-        ]
-        dependent += followers
-        found += followers
-    return dependent
-
-
-def _read_key_points(key: bpy.types.ShapeKey) -> NDArray[np.float32]:
-    """Read the positions of a shape key, shape (N, 3)."""
+def read_edge_values(mesh: bpy.types.Mesh, name: str, dtype: str) -> NDArray:
+    """Read an attribute of edges, shape (E,); all false or 0 where there is none of this name."""
     import numpy as np
 
-    positions = np.empty((len(key.points), 3), np.float32)
-    key.points.foreach_get("co", positions.reshape(-1))
-    return positions
-
-
-def _write_key_points(key: bpy.types.ShapeKey, positions: NDArray[np.float32]) -> None:
-    """Write the positions of a shape key."""
-    key.points.foreach_set("co", positions.reshape(-1))
+    values = np.zeros(len(mesh.edges), dtype)
+    attribute = mesh.attributes.get(name)
+    if attribute is not None and attribute.domain == "EDGE":
+        attribute.data.foreach_get("value", values)
+    return values

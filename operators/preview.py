@@ -5,15 +5,16 @@
 from __future__ import annotations
 
 import bpy
+from bpy.app.translations import pgettext_n as n_
 
+from . import targets
 from .current_preview import current_preview, end_preview, start_preview
 from .current_run import IS_RUNNING, current_run
 from .denoise_report import report_written
 
 
 class OBJECT_OT_framelet_preview(bpy.types.Operator):
-    """Show on the active mesh what the settings would give, while they are changed.
-    Press again, or Esc, to get the mesh back as it was"""
+    """Show on the active mesh what the settings would give, while they are changed; Esc ends it"""
 
     bl_idname = "object.framelet_preview"
     bl_label = "Live Preview"
@@ -30,12 +31,10 @@ class OBJECT_OT_framelet_preview(bpy.types.Operator):
         if current_run() is not None:
             reason = IS_RUNNING
         elif obj is None or obj.type != "MESH":
-            reason = "Make a mesh object active"
+            reason = n_("Make a mesh object active")
         elif context.mode != "OBJECT":
-            reason = "Switch to Object Mode"
-        if reason is not None:
-            cls.poll_message_set(reason)
-        return reason is None
+            reason = n_("Switch to Object Mode")
+        return targets.allows(cls, reason)
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         """Toggle, and wait for Esc while it is on."""
@@ -83,11 +82,12 @@ class OBJECT_OT_framelet_apply_preview(bpy.types.Operator):
     def poll(cls, _context: bpy.types.Context) -> bool:
         """Ask for a preview that shows what the settings give."""
         session = current_preview()
+        reason = None
         if session is None:
-            cls.poll_message_set("The live preview is off")
+            reason = n_("The live preview is off")
         elif not session.is_current:
-            cls.poll_message_set("The preview does not show these settings yet")
-        return session is not None and session.is_current
+            reason = n_("The preview does not show these settings yet")
+        return targets.allows(cls, reason)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Write it, and report it as a run."""

@@ -12,6 +12,7 @@ from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
 from ..core.settings import DEFAULT_PRESET, PRESETS, DenoiseSettings
+from .region_values import REGION_NAMES, as_typed
 
 if TYPE_CHECKING:
     import bpy
@@ -93,6 +94,7 @@ def copy_settings(source: Any, target: Any) -> None:
     """Copy all properties of scene settings to an operator, so that the operator needs nothing else."""
     target.preset = source.preset
     target.output = source.output
+    copy_values(source, target, REGION_NAMES)
     fill(target, to_settings(source))
 
 
@@ -107,11 +109,6 @@ def copy_values(source: Any, target: Any, names: tuple[str, ...]) -> None:
     """Copy properties by name, from scene properties to an operator."""
     for name in names:
         setattr(target, name, getattr(source, name))
-
-
-def as_typed(value: Any) -> Any:
-    """Return the number that was typed: properties hold single precision, 0.3 as 0.30000001."""
-    return float(f"{value:.7g}") if isinstance(value, float) else value
 
 
 def follow_preset(self: Any, _context: bpy.types.Context) -> None:

@@ -10,6 +10,7 @@ import bpy
 
 from ..core.settings import DEFAULT_PRESET, PRESETS, DenoiseSettings, SettingInfo
 from .output import IN_PLACE, OUTPUTS
+from .region_settings import RegionMixin
 from .setting_values import CUSTOM, DEFINING, FRAME_NAMES, follow_preset, leave_preset
 
 FIELDS = {item.name: item for item in fields(DenoiseSettings)}
@@ -29,6 +30,8 @@ _NUMBERED = {
         "BILATERAL",
         CUSTOM,
         "POSITIONS",
+        "MARCHING_CUBES",
+        "SCULPT",
     ),
     "method": ("POSITIONS", "NORMALS", "BILATERAL", "AUTO"),
 }
@@ -49,7 +52,7 @@ def _preset_property() -> Any:
     items.append((CUSTOM, "Custom", "Your own combination"))
     return bpy.props.EnumProperty(
         name="Preset",
-        description="A named algorithm; choosing one sets all values below",
+        description="What the mesh is or which algorithm to use; choosing one sets all values below",
         items=_items("preset", items),
         default=DEFAULT_PRESET,
         options=set(),
@@ -110,5 +113,5 @@ class OutputMixin:
     )
 
 
-class FrameletSettings(SettingsMixin, OutputMixin, bpy.types.PropertyGroup):
+class FrameletSettings(SettingsMixin, OutputMixin, RegionMixin, bpy.types.PropertyGroup):
     """The settings that the sidebar shows, stored with the scene."""

@@ -35,7 +35,7 @@ class DenoiseReport:
     displacement_rms: float
     displacement_max: float
     flipped_faces: int
-    """Faces whose normal turned by more than a right angle."""
+    """Faces whose normal turned by more than a right angle, as where a fold or a spike was smoothed out."""
     volume_change: float | None
     """(after - before) / before; None unless the mesh is closed."""
     irregular_vertices: int
@@ -51,6 +51,18 @@ class DenoiseReport:
     """The measured noise, if the method or the parameters needed it."""
     recipe: str = ""
     """With the method AUTO, the label of the recipe that was chosen."""
+    folded_faces: int = 0
+    folded_faces_before: int = 0
+    """Faces that look against the faces around them, see `FaceWatch`, in the result and in the input."""
+    degenerate_faces: int = 0
+    degenerate_faces_before: int = 0
+    """Faces next to without area, in the result and in the input."""
+    damped_vertices: int = 0
+    """Vertices that moved less than they would have, so that no face folds."""
+    line_vertices: int = 0
+    """Vertices on feature lines, those that stay included."""
+    welded_vertices: int = 0
+    """Vertices that were welded to others for the run."""
 
 
 @dataclass(frozen=True, eq=False)
