@@ -10,6 +10,7 @@ import bpy
 
 from . import kept_original
 from .preview_session import PreviewSession, begin_preview
+from .region_values import to_region_options
 from .run_display import redraw_sidebars
 from .setting_values import to_settings
 
@@ -20,6 +21,10 @@ TICK = 0.03
 """Seconds between two looks at the settings."""
 
 _session: PreviewSession | None = None
+
+_ending: list[PreviewSession] = []
+"""Previews that are over, whose threads may not have noticed yet."""
+
 _resumed: Mark | None = None
 
 
@@ -43,7 +48,9 @@ def start_preview(obj: bpy.types.Object, scene: bpy.types.Scene) -> PreviewSessi
     """
     global _session
     end_preview()
-    _session = begin_preview(obj, to_settings(scene.framelet))
+    if _session is not None:
+        _ending.append(_session)
+    _session = begin_preview(obj, to_settings(scene.framelet), to_region_options(scene.framelet))
     tick_preview()
     if not bpy.app.timers.is_registered(_on_timer):
         bpy.app.timers.register(_on_timer, first_interval=TICK)
@@ -56,7 +63,8 @@ def tick_preview() -> bool:
     if session is None:
         return False
     was, text = session.is_current, session.message
-    is_on = session.tick(to_settings(bpy.context.scene.framelet))
+    values = bpy.context.scene.framelet
+    is_on = session.tick(to_settings(values), to_region_options(values))
     if (session.is_current, session.message) != (was, text) or not is_on:
         redraw_sidebars()
     return is_on
@@ -72,10 +80,10 @@ def end_preview() -> None:
 
 def stop_preview() -> None:
     """Turn the preview off and wait until its thread has ended."""
-    global _session
-    if _session is not None:
-        _session.stop()
-        _session = None
+    end_preview()
+    leave_preview()
+    while _ending:
+        _ending.pop().join()
     if bpy.app.timers.is_registered(_on_timer):
         bpy.app.timers.unregister(_on_timer)
 
@@ -85,6 +93,7 @@ def leave_preview() -> None:
     global _session
     if _session is not None:
         _session.leave()
+        _ending.append(_session)
         _session = None
 
 

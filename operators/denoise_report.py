@@ -34,18 +34,21 @@ def report_written(
     fill_report(report, measured)
     fill_estimate_of_run(context.window_manager.framelet_estimate, measured)
     refresh_heat(context, [item.obj for item in written])
-    text = rpt_(
-        "Denoised {names}: {moved:,} of {total:,} vertices moved, {length} RMS ({edges:.3f} edge lengths), "
-        "in {seconds:.2f} s"
-    ).format(
-        names=names_text(list(measured)),
-        moved=report.n_moved,
-        total=report.n_vertices,
-        length=length_text(context.scene, report.displacement_rms),
-        edges=report.displacement_rms_edges,
-        seconds=report.seconds,
+    operator.report(
+        {"INFO"},
+        rpt_(
+            "Denoised {names}: {moved:,} of {total:,} vertices moved, {length} RMS "
+            "({edges:.3f} edge lengths), in {seconds:.2f} s"
+        ).format(
+            names=names_text(list(measured)),
+            moved=report.n_moved,
+            total=report.n_vertices,
+            length=length_text(context.scene, report.displacement_rms),
+            edges=report.displacement_rms_edges,
+            seconds=report.seconds,
+        )
+        + _noise_words(context.scene, report),
     )
-    operator.report({"INFO"}, text + _noise_words(context.scene, report))
 
 
 def _noise_words(scene: bpy.types.Scene, report: FrameletReport) -> str:

@@ -21,8 +21,8 @@ from .shape_keys import (
     active_key,
     dependent_keys,
     read_key_points,
-    write_array,
     write_key_points,
+    write_positions,
 )
 
 if TYPE_CHECKING:
@@ -207,7 +207,7 @@ def write_vertices(obj: bpy.types.Object, before: SurfaceMesh, vertices: NDArray
         return
     active = active_key(obj)
     if active is None:
-        write_array(mesh, positions)
+        write_positions(mesh, positions)
     else:
         write_key_points(active, positions)
         dependent = dependent_keys(mesh.shape_keys, active)
@@ -218,7 +218,7 @@ def write_vertices(obj: bpy.types.Object, before: SurfaceMesh, vertices: NDArray
             write_key_points(key, shifted)
         reference = mesh.shape_keys.reference_key
         if reference in [active, *dependent]:
-            write_array(mesh, read_key_points(reference))
+            write_positions(mesh, read_key_points(reference))
     mesh.update()
 
 
@@ -227,9 +227,9 @@ def write_key(key: bpy.types.ShapeKey, before: SurfaceMesh, vertices: NDArray[np
     write_key_points(key, _moved(before, vertices)[1])
 
 
-def write_positions(mesh: bpy.types.Mesh, positions: NDArray[np.float32]) -> None:
+def show_positions(mesh: bpy.types.Mesh, positions: NDArray[np.float32]) -> None:
     """Write the positions of all vertices, shape (N, 3), of a mesh in Object Mode without shape keys."""
-    write_array(mesh, positions)
+    write_positions(mesh, positions)
     mesh.update()
 
 

@@ -7,14 +7,14 @@ from __future__ import annotations
 import bpy
 from bpy.app.translations import pgettext_n as n_
 
+from . import targets
 from .current_preview import current_preview, end_preview, start_preview
 from .current_run import IS_RUNNING, current_run
 from .denoise_report import report_written
-from .targets import allows
 
 
 class OBJECT_OT_framelet_preview(bpy.types.Operator):
-    """Show on the active mesh what the settings give while they change; again, or Esc, takes it back"""
+    """Show on the active mesh what the settings would give, while they are changed; Esc ends it"""
 
     bl_idname = "object.framelet_preview"
     bl_label = "Live Preview"
@@ -34,7 +34,7 @@ class OBJECT_OT_framelet_preview(bpy.types.Operator):
             reason = n_("Make a mesh object active")
         elif context.mode != "OBJECT":
             reason = n_("Switch to Object Mode")
-        return allows(cls, reason)
+        return targets.allows(cls, reason)
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         """Toggle, and wait for Esc while it is on."""
@@ -87,7 +87,7 @@ class OBJECT_OT_framelet_apply_preview(bpy.types.Operator):
             reason = n_("The live preview is off")
         elif not session.is_current:
             reason = n_("The preview does not show these settings yet")
-        return allows(cls, reason)
+        return targets.allows(cls, reason)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Write it, and report it as a run."""

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from ..core.region_options import RegionOptions
     from ..core.settings import DenoiseSettings
 
 MOST_VERTICES = 500_000
@@ -49,18 +50,20 @@ class PreviewSession:
         One sentence if there is nothing to show with these settings, or on why the preview ended.
     """
 
-    def __init__(self, obj: bpy.types.Object, job: DenoiseJob) -> None:
+    def __init__(self, obj: bpy.types.Object, job: DenoiseJob, options: RegionOptions) -> None:
         self.message = ""
         self.is_on = True
         self.mark = mark_of(obj)
         self._job = job
+        self._options = options
         self._original = job.surface.vertices
         self._shown = self._original
-        self._wanted: DenoiseSettings | None = None
-        self._outcome: tuple[DenoiseSettings, DenoiseOutcome] | None = None
+        self._wanted: DenoiseJob | None = None
+        self._outcome: tuple[DenoiseJob, DenoiseOutcome] | None = None
         self._is_touched = self._is_suspended = False
+        self._is_allowed = True
         kept_original.keep(obj.data, self._original)
-        self._latest: Latest[DenoiseSettings, DenoiseOutcome] = Latest(self._compute)
+        self._latest: Latest[DenoiseJob, DenoiseOutcome] = Latest(_compute)
 
     @property
     def name(self) -> str:
@@ -75,7 +78,7 @@ class PreviewSession:
     @property
     def is_current(self) -> bool:
         """Whether the mesh shows what was asked for last."""
-        return self._outcome is not None and self._outcome[0] == self._wanted
+        return self._outcome is not None and self._outcome[0] is self._wanted
 
     def find_object(self) -> bpy.types.Object | None:
         """Return the object; None if it is gone."""
@@ -85,8 +88,15 @@ class PreviewSession:
         """Note that a mesh may have been edited, so that the next tick looks at its positions."""
         self._is_touched = True
 
-    def tick(self, settings: DenoiseSettings) -> bool:
+    def tick(self, settings: DenoiseSettings, options: RegionOptions) -> bool:
         """Ask for what the settings give, and show what has been computed. Call it often.
+
+        Parameters
+        ----------
+        settings : DenoiseSettings
+            What to show.
+        options : RegionOptions
+            Where vertices may move.
 
         Returns
         -------
@@ -103,11 +113,15 @@ class PreviewSession:
             self._is_touched = False
             if not self._keeps_showing():
                 return False
-        if settings != self._wanted:
-            self._wanted = settings
-            self._latest.request(settings)
+        if options != self._options:
+            self._read_again(options)
         answer = self._latest.take()
-        if answer is not None:
+        if not self._is_allowed:
+            return True
+        if self._wanted is None or settings != self._wanted.settings:
+            self._wanted = replace(self._job, settings=settings)
+            self._latest.request(self._wanted)
+        if answer is not None and answer.request.region is self._job.region:
             self._take(answer.request, answer.result, answer.error)
         return True
 
@@ -130,7 +144,7 @@ class PreviewSession:
         self._is_suspended = False
         if obj is not None and what_changed(self.mark, self._job.surface) is None:
             kept_original.keep(obj.data, self._original)
-            mesh_bridge.write_positions(obj.data, self._shown)
+            mesh_bridge.show_positions(obj.data, self._shown)
 
     def end(self, message: str = "") -> None:
         """End the preview and give the mesh its original positions, bit by bit.
@@ -169,12 +183,11 @@ class PreviewSession:
             raise ValueError(reason)
         outcome = self._outcome[1]
         self.end()
-        written = write_outcome(obj, replace(self._job, output=output), outcome)
+        written = write_outcome(obj, replace(self._outcome[0], output=output), outcome)
         return Written(obj, written, outcome.measured)
 
-    def stop(self) -> None:
-        """End the preview and wait until its thread has ended."""
-        self.end()
+    def join(self) -> None:
+        """Wait until the thread of a preview that is over has ended."""
         self._latest.join()
 
     def _close(self, message: str) -> bool:
@@ -184,6 +197,21 @@ class PreviewSession:
             self.message = message
             self._latest.close()
         return was_on
+
+    def _read_again(self, options: RegionOptions) -> None:
+        """Read where vertices may move, on the original; with options that do not fit, show it."""
+        obj = self.find_object()
+        assert obj is not None  # `tick` has looked
+        self._options, self._wanted = options, None
+        self.suspend()
+        try:
+            job = read_job(obj, self._job.settings, IN_PLACE, options)
+            self._job, self._is_allowed = replace(job, surface=self._job.surface), True
+        except ValueError as error:
+            self._is_allowed, self._outcome = False, None
+            self._shown, self.message = self._original, str(error)
+        finally:
+            self.resume()
 
     def _keeps_showing(self) -> bool:
         """Look whether the mesh shows what it should; if it was edited, keep the edit and end."""
@@ -207,13 +235,11 @@ class PreviewSession:
             )
         return False
 
-    def _take(
-        self, settings: DenoiseSettings, outcome: DenoiseOutcome | None, error: Exception | None
-    ) -> None:
+    def _take(self, job: DenoiseJob, outcome: DenoiseOutcome | None, error: Exception | None) -> None:
         """Show an answer of the thread; with an error, the original and a sentence."""
         if error is None and outcome is not None:
             self.message = ""
-            self._outcome = settings, outcome
+            self._outcome = job, outcome
             self._show(mesh_bridge.with_moved(self._job.surface, outcome.vertices))
             return
         if not isinstance(error, ValueError):
@@ -226,15 +252,16 @@ class PreviewSession:
         """Write positions to the mesh."""
         obj = self.find_object()
         assert obj is not None  # `tick` has looked
-        mesh_bridge.write_positions(obj.data, positions)
+        mesh_bridge.show_positions(obj.data, positions)
         self._shown = positions
 
-    def _compute(self, settings: DenoiseSettings, should_stop: Callable[[], bool]) -> DenoiseOutcome:
-        """Denoise the original; on the thread."""
-        return compute(replace(self._job, settings=settings), should_stop=should_stop)
+
+def _compute(job: DenoiseJob, should_stop: Callable[[], bool]) -> DenoiseOutcome:
+    """Denoise; on the thread."""
+    return compute(job, should_stop=should_stop)
 
 
-def begin_preview(obj: bpy.types.Object, settings: DenoiseSettings) -> PreviewSession:
+def begin_preview(obj: bpy.types.Object, settings: DenoiseSettings, options: RegionOptions) -> PreviewSession:
     """Start a preview; `tick` asks for the first result.
 
     Raises
@@ -244,7 +271,7 @@ def begin_preview(obj: bpy.types.Object, settings: DenoiseSettings) -> PreviewSe
     """
     if obj.mode != "OBJECT":
         raise ValueError(f"‘{obj.name}’: the preview needs Object Mode; leave the mode first.")
-    job = read_job(obj, settings)
+    job = read_job(obj, settings, IN_PLACE, options)
     if obj.data.shape_keys is not None:
         raise ValueError(f"‘{obj.name}’ has shape keys, of which there is no preview; press Denoise.")
     n_vertices = job.surface.n_vertices
@@ -253,4 +280,4 @@ def begin_preview(obj: bpy.types.Object, settings: DenoiseSettings) -> PreviewSe
             f"‘{obj.name}’ has {n_vertices:,} vertices, too many for a preview, which goes up to "
             f"{MOST_VERTICES:,}; press Denoise."
         )
-    return PreviewSession(obj, job)
+    return PreviewSession(obj, job, options)

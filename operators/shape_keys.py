@@ -53,7 +53,7 @@ def write_key_points(key: bpy.types.ShapeKey, positions: NDArray[np.float32]) ->
     key.points.foreach_set("co", positions.reshape(-1))
 
 
-def write_array(mesh: bpy.types.Mesh, positions: NDArray[np.float32]) -> None:
+def write_positions(mesh: bpy.types.Mesh, positions: NDArray[np.float32]) -> None:
     """Write the positions of the mesh itself."""
     mesh.attributes["position"].data.foreach_set("vector", positions.reshape(-1))
 
@@ -73,5 +73,5 @@ def write_followers(obj: bpy.types.Object, points: Mapping[str, NDArray[np.float
         key = mesh.shape_keys.key_blocks[name]
         write_key_points(key, positions)
         if key == mesh.shape_keys.reference_key and key != active:
-            write_array(mesh, positions)
+            write_positions(mesh, positions)
             mesh.update()

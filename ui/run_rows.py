@@ -32,6 +32,6 @@ def draw_preview(layout: bpy.types.UILayout) -> None:
     if session is not None:
         row.operator(OBJECT_OT_framelet_apply_preview.bl_idname, icon="CHECKMARK")
         if not session.is_current and not session.message:
-            layout.label(text=iface_("Computing ‘{name}’").format(name=session.name), icon="SORTTIME")
+            layout.label(text=iface_("Computing {name}").format(name=f"‘{session.name}’"), icon="SORTTIME")
     if preview_message():
-        layout.label(text=preview_message(), icon="INFO")
+        layout.label(text=preview_message(), translate=False, icon="INFO")

@@ -389,6 +389,32 @@ def test_wrong_settings_show_the_original_and_a_sentence(settings):
     assert session.message == "" and not same(points(mesh), before)
 
 
+def test_regions_are_followed(settings):
+    obj = monkey()
+    surface = mesh_bridge.read_surface(obj)
+    group = obj.vertex_groups.new(name="Part")
+    group.add(list(range(100)), 1.0, "REPLACE")
+    session = turn_on()
+    settle(session)
+    assert (points(obj.data) != surface.vertices)[100:].any()
+    settings.vertex_group = "Part"
+    settle(session)
+    moved = (points(obj.data) != surface.vertices).any(axis=1)
+    assert session.is_current and moved[:100].any() and not moved[100:].any()
+    settings.vertex_group = "None of these"
+    settle(session)
+    assert session.is_on and not session.is_current and "no vertex group" in session.message
+    assert same(points(obj.data), surface.vertices)
+    settings.lambda_ = 0.9
+    settle(session)
+    assert same(points(obj.data), surface.vertices) and "no vertex group" in session.message
+    settings.vertex_group = ""
+    settle(session)
+    assert same(points(obj.data), expected_for(surface, settings)) and session.message == ""
+    current_preview.end_preview()
+    assert same(points(obj.data), surface.vertices)
+
+
 def test_unexpected_errors_are_shown(settings, monkeypatch, capfd):
     monkey()
 

@@ -101,8 +101,8 @@ TEXTS = {
         "Den laufenden Vorgang abbrechen; alles bleibt, wie es war"
     ),
     # Live preview
-    "Show on the active mesh what the settings give while they change; again, or Esc, takes it back": (
-        "Am aktiven Netz zeigen, was die Einstellungen ergeben, während sie sich ändern; nochmals oder Esc nimmt es zurück"
+    "Show on the active mesh what the settings would give, while they are changed; Esc ends it": (
+        "Am aktiven Netz zeigen, was die Einstellungen ergäben, während sie geändert werden; Esc beendet es"
     ),
     "Keep what the preview shows, in the place that Output says": (
         "Behalten, was die Vorschau zeigt, dort, wo es die Ausgabe vorsieht"
@@ -110,7 +110,7 @@ TEXTS = {
     "Make a mesh object active": "Ein Netz aktiv machen",
     "The live preview is off": "Die Vorschau ist aus",
     "The preview does not show these settings yet": "Die Vorschau zeigt diese Einstellungen noch nicht",
-    "Computing ‘{name}’": "‘{name}’ wird berechnet",
+    "Computing {name}": "{name} wird berechnet",
     # A run that goes on
     "Framelet is not running": "Framelet läuft nicht",
     "Framelet is running; press Esc or the right mouse button to cancel": (
