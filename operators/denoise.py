@@ -5,24 +5,24 @@
 from __future__ import annotations
 
 import bpy
+from bpy.app.translations import pgettext_n as n_
+from bpy.app.translations import pgettext_rpt as rpt_
 
 from . import targets
+from .current_preview import end_preview
 from .current_run import IS_RUNNING, current_run, set_current
+from .denoise_report import report_written
 from .denoise_run import DenoiseRun, State, begin_run
-from .filled_reports import fill_estimate_of_run, fill_report
-from .output import select_instead
 from .region_settings import RegionMixin
 from .region_values import shown_region_names, to_region_options
-from .report import FrameletReport
 from .run_display import RunDisplay
-from .scene_units import length_text, noise_text
 from .setting_values import PROPERTY_NAMES, fill, has_effect, is_replaced, to_settings
 from .settings import OutputMixin, SettingsMixin
 
 TICK = 0.05
 """Seconds between two looks at a run."""
 
-CANCELED = "Canceled; nothing was changed"
+CANCELED = n_("Canceled; nothing was changed")
 
 
 class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, RegionMixin, bpy.types.Operator):
@@ -35,10 +35,7 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, RegionMixin, bpy.ty
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Ask for a selected mesh, in Object Mode or Edit Mode, and for no run that is going on."""
-        reason = IS_RUNNING if current_run() else targets.poll_reason(context)
-        if reason is not None:
-            cls.poll_message_set(reason)
-        return reason is None
+        return targets.allows(cls, IS_RUNNING if current_run() else targets.poll_reason(context))
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Show, when adjusting the last operation, the settings that the method uses."""
@@ -105,6 +102,7 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, RegionMixin, bpy.ty
         settings = to_settings(self)
         # The panel for adjusting the last operation shows the values that were used, defaults included.
         fill(self, settings)
+        end_preview()
         try:
             self._run: DenoiseRun = begin_run(
                 targets.target_objects(context), settings, self.output, to_region_options(self)
@@ -126,7 +124,7 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, RegionMixin, bpy.ty
         """Write what came of the run, and report it."""
         run = self._run
         if run.state is State.CANCELED:
-            self.report({"INFO"}, CANCELED)
+            self.report({"INFO"}, rpt_(CANCELED))
             return {"CANCELLED"}
         if run.state is State.FAILED:
             self.report({"ERROR"}, run.reason)
@@ -134,18 +132,7 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, RegionMixin, bpy.ty
         written = run.finish()
         if run.failures:
             self.report({"WARNING"}, " ".join(run.failures))
-        select_instead(context.view_layer, [(item.original, item.obj) for item in written])
-        measured = {item.obj.name: item.measured for item in written}
-        report = context.window_manager.framelet_report
-        fill_report(report, measured)
-        fill_estimate_of_run(context.window_manager.framelet_estimate, measured)
-        self.report(
-            {"INFO"},
-            f"Denoised {targets.names_text(list(measured))}: {report.n_moved:,} of {report.n_vertices:,} "
-            f"vertices moved, {length_text(context.scene, report.displacement_rms)} RMS "
-            f"({report.displacement_rms_edges:.3f} edge lengths), in {report.seconds:.2f} s"
-            f"{_noise_words(context.scene, report)}",
-        )
+        report_written(self, context, written)
         return {"FINISHED"}
 
 
@@ -159,20 +146,9 @@ class OBJECT_OT_framelet_cancel(bpy.types.Operator):
     @classmethod
     def poll(cls, _context: bpy.types.Context) -> bool:
         """Ask for a run."""
-        if current_run() is None:
-            cls.poll_message_set("Framelet is not running")
-        return current_run() is not None
+        return targets.allows(cls, n_("Framelet is not running") if current_run() is None else None)
 
     def execute(self, _context: bpy.types.Context) -> set[str]:
         """Cancel; the operator that is in charge of the run ends at its next tick."""
         current_run().cancel()
         return {"FINISHED"}
-
-
-def _noise_words(scene: bpy.types.Scene, report: FrameletReport) -> str:
-    """Say which noise was measured and what was made of it; nothing if it was not measured."""
-    if not report.has_noise:
-        return ""
-    noise = noise_text(scene, report.noise_sigma, report.noise_sigma_edges, report.is_impulsive)
-    taken = report.recipe or report.parameters
-    return f"; noise {noise}" + (f"; used {taken}" if taken else "")

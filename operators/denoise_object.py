@@ -10,10 +10,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from ..core.region_options import RegionOptions
+from . import run_memory
 from .denoise_job import DenoiseJob, DenoiseOutcome, MeasuredReport, compute
-from .output import IN_PLACE, refusal, write_output
+from .output import IN_PLACE, SHAPE_KEY, refusal, write_output
 from .region_bridge import read_region
 from .scene_units import linear_part
+from .shape_keys import read_followers
 
 if TYPE_CHECKING:
     import bpy
@@ -70,7 +72,10 @@ def write_outcome(obj: bpy.types.Object, job: DenoiseJob, outcome: DenoiseOutcom
     bpy.types.Object
         The object that has the result: the same, or a new one.
     """
-    return write_output(obj, job.surface, outcome.vertices, job.output)
+    followers = {} if job.output == SHAPE_KEY else read_followers(obj)
+    written = write_output(obj, job.surface, outcome.vertices, job.output)
+    run_memory.remember(written, job.surface, followers)
+    return written
 
 
 class DenoisedObject(NamedTuple):

@@ -13,6 +13,8 @@ import traceback
 from enum import Enum
 from typing import TYPE_CHECKING, NamedTuple
 
+from bpy.app.translations import pgettext_iface as iface_
+
 from .denoise_job import DenoiseJob, DenoiseOutcome, MeasuredReport, compute
 from .denoise_object import read_job, write_outcome
 from .run_guard import Mark, find_object, mark_of, what_changed
@@ -67,7 +69,7 @@ class DenoiseRun:
         self.reason = ""
         self._jobs = jobs
         self._at = 0
-        self._is_touched = False
+        self._is_touched = self._is_started = False
         self._worker: Worker[list[DenoiseOutcome | str]] = Worker(self._compute)
 
     @property
@@ -84,17 +86,19 @@ class DenoiseRun:
     def text(self) -> str:
         """What is being done, for people."""
         name = self._jobs[self._at][1].name
-        many = f" ({self._at + 1} of {len(self._jobs)})" if len(self._jobs) > 1 else ""
-        return f"Denoising ‘{name}’{many}"
+        if len(self._jobs) == 1:
+            return iface_("Denoising ‘{name}’").format(name=name)
+        text = iface_("Denoising ‘{name}’ ({number} of {total})")
+        return text.format(name=name, number=self._at + 1, total=len(self._jobs))
 
     def start(self) -> None:
         """Begin to compute on a thread."""
-        self.state = State.RUNNING
+        self.state, self._is_started = State.RUNNING, True
         self._worker.start()
 
     def run_here(self, progress: Callable[[float], None] | None = None) -> None:
         """Compute on the calling thread, and call `progress(fraction)` meanwhile."""
-        self.state = State.RUNNING
+        self.state, self._is_started = State.RUNNING, True
         if progress is not None:
             self._progress = progress
         self._worker.run_here()
@@ -136,7 +140,7 @@ class DenoiseRun:
 
     def wait(self, seconds: float | None = None) -> bool:
         """Wait for the thread, at most so long; return whether it has ended."""
-        return self.state is State.READING or self._worker.wait(seconds)
+        return not self._is_started or self._worker.wait(seconds)
 
     def finish(self) -> list[Written]:
         """Write the results of a run that is ready, and return what was done."""

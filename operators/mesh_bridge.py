@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Blender meshes as arrays and back: with `band_storage` the only file that reads or writes mesh data.
+"""Blender meshes as arrays and back: with `band_storage` and `shape_keys` all that touches mesh data.
 
 What limits a run to parts of a mesh is read through it by `region_bridge`.
 
@@ -16,6 +16,14 @@ from typing import TYPE_CHECKING
 
 import bmesh
 import bpy
+
+from .shape_keys import (
+    active_key,
+    dependent_keys,
+    read_key_points,
+    write_key_points,
+    write_positions,
+)
 
 if TYPE_CHECKING:
     import numpy as np
@@ -199,24 +207,35 @@ def write_vertices(obj: bpy.types.Object, before: SurfaceMesh, vertices: NDArray
         return
     active = active_key(obj)
     if active is None:
-        _write_positions(mesh, positions)
+        write_positions(mesh, positions)
     else:
-        _write_key_points(active, positions)
-        dependent = _dependent_keys(mesh.shape_keys, active)
+        write_key_points(active, positions)
+        dependent = dependent_keys(mesh.shape_keys, active)
         offset = positions[moved] - before.vertices[moved]
         for key in dependent:
-            shifted = _read_key_points(key)
+            shifted = read_key_points(key)
             shifted[moved] += offset
-            _write_key_points(key, shifted)
+            write_key_points(key, shifted)
         reference = mesh.shape_keys.reference_key
         if reference in [active, *dependent]:
-            _write_positions(mesh, _read_key_points(reference))
+            write_positions(mesh, read_key_points(reference))
     mesh.update()
 
 
 def write_key(key: bpy.types.ShapeKey, before: SurfaceMesh, vertices: NDArray[np.floating]) -> None:
     """Write positions to one shape key; vertices that did not move have the bits they had when read."""
-    _write_key_points(key, _moved(before, vertices)[1])
+    write_key_points(key, _moved(before, vertices)[1])
+
+
+def show_positions(mesh: bpy.types.Mesh, positions: NDArray[np.float32]) -> None:
+    """Write the positions of all vertices, shape (N, 3), of a mesh in Object Mode without shape keys."""
+    write_positions(mesh, positions)
+    mesh.update()
+
+
+def with_moved(before: SurfaceMesh, vertices: NDArray[np.floating]) -> NDArray[np.float32]:
+    """Return the positions that `write_vertices` writes to a mesh, shape (N, 3)."""
+    return _moved(before, vertices)[1]
 
 
 def _moved(
@@ -251,12 +270,7 @@ def read_arrays(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey | None) -> Surface
     from ..core import SurfaceMesh
 
     n_corners, n_faces = len(mesh.loops), len(mesh.polygons)
-    if key is None:
-        vertices = np.empty((len(mesh.vertices), 3), np.float32)
-        if len(vertices):
-            mesh.attributes["position"].data.foreach_get("vector", vertices.reshape(-1))
-    else:
-        vertices = _read_key_points(key)
+    vertices = read_positions(mesh) if key is None else read_key_points(key)
     edges = np.empty((len(mesh.edges), 2), np.int32)
     mesh.edges.foreach_get("vertices", edges.reshape(-1))
     corner_vertex = np.empty(n_corners, np.int32)
@@ -267,6 +281,16 @@ def read_arrays(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey | None) -> Surface
         mesh.attributes[".corner_edge"].data.foreach_get("value", corner_edge)
         mesh.polygons.foreach_get("loop_start", face_offset[:-1])
     return SurfaceMesh(vertices, corner_vertex, corner_edge, face_offset, edges)
+
+
+def read_positions(mesh: bpy.types.Mesh) -> NDArray[np.float32]:
+    """Read the positions of the mesh itself, shape (N, 3), in Object Mode."""
+    import numpy as np
+
+    vertices = np.empty((len(mesh.vertices), 3), np.float32)
+    if len(vertices):
+        mesh.attributes["position"].data.foreach_get("vector", vertices.reshape(-1))
+    return vertices
 
 
 def read_flag(mesh: bpy.types.Mesh, name: str) -> NDArray[np.bool_]:
@@ -289,48 +313,3 @@ def read_edge_values(mesh: bpy.types.Mesh, name: str, dtype: str) -> NDArray:
     if attribute is not None and attribute.domain == "EDGE":
         attribute.data.foreach_get("value", values)
     return values
-
-
-def _write_positions(mesh: bpy.types.Mesh, positions: NDArray[np.float32]) -> None:
-    """Write the positions of the mesh itself."""
-    mesh.attributes["position"].data.foreach_set("vector", positions.reshape(-1))
-
-
-def active_key(obj: bpy.types.Object) -> bpy.types.ShapeKey | None:
-    """Return the shape key that is read and edited; None without shape keys."""
-    keys = obj.data.shape_keys
-    if keys is None:
-        return None
-    return obj.active_shape_key or keys.reference_key
-
-
-def _dependent_keys(keys: bpy.types.Key, active: bpy.types.ShapeKey) -> list[bpy.types.ShapeKey]:
-    """Return the keys that are relative to a key, directly or through others."""
-    if not keys.use_relative:
-        return []
-    dependent: list[bpy.types.ShapeKey] = []
-    found = [active]
-    while found:
-        base = found.pop()
-        followers = [
-            key
-            for key in keys.key_blocks
-            if key.relative_key == base and key != active and key not in dependent
-        ]
-        dependent += followers
-        found += followers
-    return dependent
-
-
-def _read_key_points(key: bpy.types.ShapeKey) -> NDArray[np.float32]:
-    """Read the positions of a shape key, shape (N, 3)."""
-    import numpy as np
-
-    positions = np.empty((len(key.points), 3), np.float32)
-    key.points.foreach_get("co", positions.reshape(-1))
-    return positions
-
-
-def _write_key_points(key: bpy.types.ShapeKey, positions: NDArray[np.float32]) -> None:
-    """Write the positions of a shape key."""
-    key.points.foreach_set("co", positions.reshape(-1))

@@ -9,11 +9,16 @@ from . import handlers, mesh_facts
 from .add_noise import OBJECT_OT_framelet_add_noise
 from .analyze import OBJECT_OT_framelet_analyze, OBJECT_OT_framelet_clear
 from .band_settings import FrameletBands, FrameletEqualizer
+from .before_after import OBJECT_OT_framelet_before_after
 from .command_line import blender_command
 from .compare import OBJECT_OT_framelet_compare
 from .denoise import OBJECT_OT_framelet_cancel, OBJECT_OT_framelet_denoise
 from .equalize import OBJECT_OT_framelet_equalize
 from .estimate_noise import OBJECT_OT_framelet_estimate_noise
+from .heat_map import OBJECT_OT_framelet_heat_map, OBJECT_OT_framelet_hide_colors
+from .heat_settings import FrameletHeatMap
+from .presets import OBJECT_OT_framelet_preset_add
+from .preview import OBJECT_OT_framelet_apply_preview, OBJECT_OT_framelet_preview
 from .report import (
     FrameletBandRange,
     FrameletComparison,
@@ -34,8 +39,11 @@ classes = (
     FrameletBandRange,
     FrameletBands,
     FrameletEqualizer,
+    FrameletHeatMap,
     OBJECT_OT_framelet_denoise,
     OBJECT_OT_framelet_cancel,
+    OBJECT_OT_framelet_preview,
+    OBJECT_OT_framelet_apply_preview,
     OBJECT_OT_framelet_estimate_noise,
     OBJECT_OT_framelet_add_noise,
     OBJECT_OT_framelet_compare,
@@ -44,12 +52,17 @@ classes = (
     OBJECT_OT_framelet_synthesize,
     OBJECT_OT_framelet_clear,
     OBJECT_OT_framelet_equalize,
+    OBJECT_OT_framelet_before_after,
+    OBJECT_OT_framelet_heat_map,
+    OBJECT_OT_framelet_hide_colors,
+    OBJECT_OT_framelet_preset_add,
 )
 
 POINTERS = (
     (bpy.types.Scene, "framelet", FrameletSettings),
     (bpy.types.Scene, "framelet_bands", FrameletBands),
     (bpy.types.Scene, "framelet_equalizer", FrameletEqualizer),
+    (bpy.types.Scene, "framelet_heat_map", FrameletHeatMap),
     (bpy.types.WindowManager, "framelet_report", FrameletReport),
     (bpy.types.WindowManager, "framelet_estimate", FrameletEstimate),
     (bpy.types.WindowManager, "framelet_comparison", FrameletComparison),

@@ -7,6 +7,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import bpy
+from bpy.app.translations import pgettext_iface as iface_
 
 if TYPE_CHECKING:
     from .denoise_run import DenoiseRun
@@ -46,13 +47,13 @@ class RunDisplay:
 def progress_text(run: DenoiseRun) -> str:
     """Say what a run does and how far it is."""
     if run.fraction == 0.0:
-        return f"{run.text}: preparing"
+        return iface_("{what}: preparing").format(what=run.text)
     return f"{run.text}: {run.fraction:.0%}"
 
 
 def status_text(run: DenoiseRun) -> str:
     """Return the line for the status bar."""
-    return f"{progress_text(run)}   |   Esc or Right Mouse Button: Cancel"
+    return iface_("{progress}   |   Esc or Right Mouse Button: Cancel").format(progress=progress_text(run))
 
 
 def redraw_sidebars() -> None:

@@ -85,8 +85,13 @@ def surface_in_scene(obj: bpy.types.Object, surface: SurfaceMesh) -> SurfaceMesh
 
 def noise_text(scene: bpy.types.Scene, sigma: float, sigma_edges: float, is_impulsive: bool) -> str:
     """Return the measured noise in words; `sigma` is in scene units."""
-    more = ", impulsive" if is_impulsive else ""
-    return f"{length_text(scene, sigma)} ({sigma_edges:.3f} edge lengths{more})"
+    from bpy.app.translations import pgettext_rpt as rpt_
+
+    if is_impulsive:
+        text = rpt_("{length} ({edges:.3f} edge lengths, impulsive)")
+    else:
+        text = rpt_("{length} ({edges:.3f} edge lengths)")
+    return text.format(length=length_text(scene, sigma), edges=sigma_edges)
 
 
 def length_text(scene: bpy.types.Scene, length: float) -> str:
@@ -104,3 +109,11 @@ def length_text(scene: bpy.types.Scene, length: float) -> str:
         split_unit=False,
         compatible_unit=False,
     )
+
+
+def value_text(scene: bpy.types.Scene, value: float, is_angle: bool) -> str:
+    """Return what a color stands for in words: a length with its sign, or an angle in degrees."""
+    if is_angle:
+        return f"{value:.4g}°"
+    # A true minus sign, as wide as a plus; Blender writes a hyphen.
+    return f"−{length_text(scene, -value)}" if value < 0.0 else length_text(scene, value)

@@ -30,6 +30,8 @@ _NUMBERED = {
         "BILATERAL",
         CUSTOM,
         "POSITIONS",
+        "MARCHING_CUBES",
+        "SCULPT",
     ),
     "method": ("POSITIONS", "NORMALS", "BILATERAL", "AUTO"),
 }
@@ -50,7 +52,7 @@ def _preset_property() -> Any:
     items.append((CUSTOM, "Custom", "Your own combination"))
     return bpy.props.EnumProperty(
         name="Preset",
-        description="A named algorithm; choosing one sets all values below",
+        description="What the mesh is or which algorithm to use; choosing one sets all values below",
         items=_items("preset", items),
         default=DEFAULT_PRESET,
         options=set(),

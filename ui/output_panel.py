@@ -5,13 +5,14 @@
 from __future__ import annotations
 
 import bpy
+from bpy.app.translations import pgettext_n as n_
 
 from ..operators.output import NEW_OBJECT, SHAPE_KEY
 from .layouts import FrameletPanel, settings_column
 
 _HINTS = {
-    SHAPE_KEY: "Its value is the amount",
-    NEW_OBJECT: "The original stays as it is",
+    SHAPE_KEY: n_("Its value is the amount"),
+    NEW_OBJECT: n_("The original stays as it is"),
 }
 
 

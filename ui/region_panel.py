@@ -5,6 +5,8 @@
 from __future__ import annotations
 
 import bpy
+from bpy.app.translations import pgettext_iface as iface_
+from bpy.app.translations import pgettext_n as n_
 
 from .layouts import FrameletPanel, draw_value, settings_column
 
@@ -38,14 +40,14 @@ class VIEW3D_PT_framelet_region(FrameletPanel, bpy.types.Panel):
 
 def draw_repairs(layout: bpy.types.UILayout, report: bpy.types.PropertyGroup) -> None:
     """Draw, as lines of the table of the last run, folded and degenerate faces and what regions did."""
-    for label, name in (("Folded Faces", "folded_faces"), ("Degenerate", "degenerate_faces")):
+    for label, name in ((n_("Folded Faces"), "folded_faces"), (n_("Degenerate"), "degenerate_faces")):
         now, before = getattr(report, name), getattr(report, f"{name}_before")
         if now or before:
-            draw_value(layout, label, f"{now:,} (before: {before:,})")
+            draw_value(layout, label, iface_("{:,} (before: {:,})").format(now, before))
     for label, name in (
-        ("Damped", "damped_vertices"),
-        ("On Lines", "line_vertices"),
-        ("Welded", "welded_vertices"),
+        (n_("Damped"), "damped_vertices"),
+        (n_("On Lines"), "line_vertices"),
+        (n_("Welded"), "welded_vertices"),
     ):
         if getattr(report, name):
             draw_value(layout, label, f"{getattr(report, name):,}")
@@ -65,7 +67,7 @@ def _draw_group(
     button.prop(settings, "invert_group", text="", icon="ARROW_LEFTRIGHT")
     is_named = obj is not None and obj.type == "MESH" and bool(settings.vertex_group)
     if is_named and settings.vertex_group not in obj.vertex_groups:
-        column.label(text=f"‘{obj.name}’ has no such group", icon="ERROR")
+        column.label(text=iface_("‘{name}’ has no such group").format(name=obj.name), icon="ERROR")
 
 
 classes = (VIEW3D_PT_framelet_region,)

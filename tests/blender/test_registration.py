@@ -21,6 +21,9 @@ OPERATORS = (
     "framelet_synthesize",
     "framelet_clear",
     "framelet_equalize",
+    "framelet_before_after",
+    "framelet_heat_map",
+    "framelet_hide_colors",
 )
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -31,7 +34,7 @@ def traces():
     for owner in (bpy.types.Scene, bpy.types.WindowManager, bpy.types.Object, bpy.types.Mesh):
         found |= {f"{owner.__name__}.{name}" for name in dir(owner) if "framelet" in name}
     found |= {f"ops.{name}" for name in dir(bpy.ops.object) if "framelet" in name}
-    for name in menus.MENU_NAMES:
+    for name, _ in menus.ENTRIES:
         drawers = getattr(bpy.types, name)._dyn_ui_initialize()
         found |= {f"{name}.{drawer.__name__}" for drawer in drawers if "framelet" in drawer.__module__}
     return found
