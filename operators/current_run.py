@@ -15,6 +15,9 @@ IS_RUNNING = n_("Framelet is running; press Esc or the right mouse button to can
 
 _run: DenoiseRun | None = None
 
+_ending: list[DenoiseRun] = []
+"""Canceled runs whose threads have not noticed yet."""
+
 
 def current_run() -> DenoiseRun | None:
     """Return the run that is going on, or None."""
@@ -30,8 +33,11 @@ def set_current(run: DenoiseRun) -> None:
         In one sentence, if another one is going on.
     """
     global _run
+    _ending[:] = [ended for ended in _ending if not ended.wait(0.0)]
     if current_run() is not None:
         raise ValueError(f"{IS_RUNNING}.")
+    if _run is not None and not _run.wait(0.0):
+        _ending.append(_run)
     _run = run
 
 
@@ -50,9 +56,11 @@ def touch_current() -> None:
 
 
 def stop_current() -> None:
-    """Cancel the last run and wait until its thread has ended."""
+    """Cancel the run that is going on, and wait until its thread and those of canceled ones have ended."""
     global _run
     if _run is not None:
         _run.cancel()
-        _run.wait()
+        _ending.append(_run)
         _run = None
+    while _ending:
+        _ending.pop().wait()

@@ -9,16 +9,13 @@ from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from . import targets
+from .current_preview import end_preview
 from .current_run import IS_RUNNING, current_run, set_current
+from .denoise_report import report_written
 from .denoise_run import DenoiseRun, State, begin_run
-from .filled_reports import fill_estimate_of_run, fill_report
-from .heat_map import refresh_heat
-from .output import select_instead
 from .region_settings import RegionMixin
 from .region_values import shown_region_names, to_region_options
-from .report import FrameletReport
 from .run_display import RunDisplay
-from .scene_units import length_text, noise_text
 from .setting_values import PROPERTY_NAMES, fill, has_effect, is_replaced, to_settings
 from .settings import OutputMixin, SettingsMixin
 
@@ -105,6 +102,7 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, RegionMixin, bpy.ty
         settings = to_settings(self)
         # The panel for adjusting the last operation shows the values that were used, defaults included.
         fill(self, settings)
+        end_preview()
         try:
             self._run: DenoiseRun = begin_run(
                 targets.target_objects(context), settings, self.output, to_region_options(self)
@@ -134,27 +132,7 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, RegionMixin, bpy.ty
         written = run.finish()
         if run.failures:
             self.report({"WARNING"}, " ".join(run.failures))
-        select_instead(context.view_layer, [(item.original, item.obj) for item in written])
-        measured = {item.obj.name: item.measured for item in written}
-        report = context.window_manager.framelet_report
-        fill_report(report, measured)
-        fill_estimate_of_run(context.window_manager.framelet_estimate, measured)
-        refresh_heat(context, [bpy.data.objects[name] for name in measured])
-        self.report(
-            {"INFO"},
-            rpt_(
-                "Denoised {names}: {moved:,} of {total:,} vertices moved, {length} RMS "
-                "({edges:.3f} edge lengths), in {seconds:.2f} s"
-            ).format(
-                names=targets.names_text(list(measured)),
-                moved=report.n_moved,
-                total=report.n_vertices,
-                length=length_text(context.scene, report.displacement_rms),
-                edges=report.displacement_rms_edges,
-                seconds=report.seconds,
-            )
-            + _noise_words(context.scene, report),
-        )
+        report_written(self, context, written)
         return {"FINISHED"}
 
 
@@ -174,13 +152,3 @@ class OBJECT_OT_framelet_cancel(bpy.types.Operator):
         """Cancel; the operator that is in charge of the run ends at its next tick."""
         current_run().cancel()
         return {"FINISHED"}
-
-
-def _noise_words(scene: bpy.types.Scene, report: FrameletReport) -> str:
-    """Say which noise was measured and what was made of it; nothing if it was not measured."""
-    if not report.has_noise:
-        return ""
-    noise = noise_text(scene, report.noise_sigma, report.noise_sigma_edges, report.is_impulsive)
-    taken = report.recipe or report.parameters
-    words = rpt_("; noise {noise}").format(noise=noise)
-    return words + (rpt_("; used {what}").format(what=taken) if taken else "")

@@ -69,7 +69,7 @@ class DenoiseRun:
         self.reason = ""
         self._jobs = jobs
         self._at = 0
-        self._is_touched = False
+        self._is_touched = self._is_started = False
         self._worker: Worker[list[DenoiseOutcome | str]] = Worker(self._compute)
 
     @property
@@ -93,12 +93,12 @@ class DenoiseRun:
 
     def start(self) -> None:
         """Begin to compute on a thread."""
-        self.state = State.RUNNING
+        self.state, self._is_started = State.RUNNING, True
         self._worker.start()
 
     def run_here(self, progress: Callable[[float], None] | None = None) -> None:
         """Compute on the calling thread, and call `progress(fraction)` meanwhile."""
-        self.state = State.RUNNING
+        self.state, self._is_started = State.RUNNING, True
         if progress is not None:
             self._progress = progress
         self._worker.run_here()
@@ -140,7 +140,7 @@ class DenoiseRun:
 
     def wait(self, seconds: float | None = None) -> bool:
         """Wait for the thread, at most so long; return whether it has ended."""
-        return self.state is State.READING or self._worker.wait(seconds)
+        return not self._is_started or self._worker.wait(seconds)
 
     def finish(self) -> list[Written]:
         """Write the results of a run that is ready, and return what was done."""

@@ -227,6 +227,17 @@ def write_key(key: bpy.types.ShapeKey, before: SurfaceMesh, vertices: NDArray[np
     write_key_points(key, _moved(before, vertices)[1])
 
 
+def show_positions(mesh: bpy.types.Mesh, positions: NDArray[np.float32]) -> None:
+    """Write the positions of all vertices, shape (N, 3), of a mesh in Object Mode without shape keys."""
+    write_positions(mesh, positions)
+    mesh.update()
+
+
+def with_moved(before: SurfaceMesh, vertices: NDArray[np.floating]) -> NDArray[np.float32]:
+    """Return the positions that `write_vertices` writes to a mesh, shape (N, 3)."""
+    return _moved(before, vertices)[1]
+
+
 def _moved(
     before: SurfaceMesh, vertices: NDArray[np.floating]
 ) -> tuple[NDArray[np.intp], NDArray[np.float32]]:
@@ -259,12 +270,7 @@ def read_arrays(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey | None) -> Surface
     from ..core import SurfaceMesh
 
     n_corners, n_faces = len(mesh.loops), len(mesh.polygons)
-    if key is None:
-        vertices = np.empty((len(mesh.vertices), 3), np.float32)
-        if len(vertices):
-            mesh.attributes["position"].data.foreach_get("vector", vertices.reshape(-1))
-    else:
-        vertices = read_key_points(key)
+    vertices = read_positions(mesh) if key is None else read_key_points(key)
     edges = np.empty((len(mesh.edges), 2), np.int32)
     mesh.edges.foreach_get("vertices", edges.reshape(-1))
     corner_vertex = np.empty(n_corners, np.int32)
@@ -275,6 +281,16 @@ def read_arrays(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey | None) -> Surface
         mesh.attributes[".corner_edge"].data.foreach_get("value", corner_edge)
         mesh.polygons.foreach_get("loop_start", face_offset[:-1])
     return SurfaceMesh(vertices, corner_vertex, corner_edge, face_offset, edges)
+
+
+def read_positions(mesh: bpy.types.Mesh) -> NDArray[np.float32]:
+    """Read the positions of the mesh itself, shape (N, 3), in Object Mode."""
+    import numpy as np
+
+    vertices = np.empty((len(mesh.vertices), 3), np.float32)
+    if len(vertices):
+        mesh.attributes["position"].data.foreach_get("vector", vertices.reshape(-1))
+    return vertices
 
 
 def read_flag(mesh: bpy.types.Mesh, name: str) -> NDArray[np.bool_]:

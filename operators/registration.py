@@ -18,6 +18,7 @@ from .estimate_noise import OBJECT_OT_framelet_estimate_noise
 from .heat_map import OBJECT_OT_framelet_heat_map, OBJECT_OT_framelet_hide_colors
 from .heat_settings import FrameletHeatMap
 from .presets import OBJECT_OT_framelet_preset_add
+from .preview import OBJECT_OT_framelet_apply_preview, OBJECT_OT_framelet_preview
 from .report import (
     FrameletBandRange,
     FrameletComparison,
@@ -41,6 +42,8 @@ classes = (
     FrameletHeatMap,
     OBJECT_OT_framelet_denoise,
     OBJECT_OT_framelet_cancel,
+    OBJECT_OT_framelet_preview,
+    OBJECT_OT_framelet_apply_preview,
     OBJECT_OT_framelet_estimate_noise,
     OBJECT_OT_framelet_add_noise,
     OBJECT_OT_framelet_compare,

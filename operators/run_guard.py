@@ -83,5 +83,6 @@ def _is_same_mesh(obj: bpy.types.Object, surface: SurfaceMesh) -> bool:
 
     now = mesh_bridge.read_surface(obj)
     return all(
-        np.array_equal(getattr(now, item.name), getattr(surface, item.name)) for item in fields(surface)
+        np.array_equal(getattr(now, item.name), getattr(surface, item.name), equal_nan=True)
+        for item in fields(surface)
     )

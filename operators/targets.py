@@ -12,6 +12,7 @@ from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from .band_storage import has_note
+from .current_preview import end_preview
 
 Result = TypeVar("Result")
 Progress = Callable[[float, float], bool]
@@ -77,6 +78,7 @@ def run_on_targets(
     dict
         The results by object name; empty if nothing was done.
     """
+    end_preview()  # what it shows is not what the mesh is
     objects = target_objects(context)
     results: dict[str, Result] = {}
     failures: list[str] = []

@@ -15,7 +15,7 @@ from ..operators.denoise import OBJECT_OT_framelet_denoise
 from ..operators.setting_values import copy_settings, has_effect, is_replaced
 from .layouts import FrameletPanel, draw_settings, draw_value, settings_column
 from .preset_panel import VIEW3D_PT_framelet_presets
-from .run_rows import draw_progress
+from .run_rows import draw_preview, draw_progress
 
 MAIN_NAMES = (
     "tuning",
@@ -70,6 +70,7 @@ class VIEW3D_PT_framelet(FrameletPanel, bpy.types.Panel):
         row.scale_y = 1.8
         copy_settings(settings, row.operator(OBJECT_OT_framelet_denoise.bl_idname, icon="MOD_SMOOTH"))
         draw_progress(layout)
+        draw_preview(layout)
         column = settings_column(layout)
         for name in ("preset", "method", "strength"):
             if has_effect(settings.method, name):

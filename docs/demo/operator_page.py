@@ -48,6 +48,7 @@ def section(idname: str) -> str:
     group, _, name = idname.partition(".")
     rna = getattr(getattr(bpy.ops, group), name).get_rna_type()
     properties = [prop for prop in rna.properties if prop.identifier != "rna_type"]
+    properties.sort(key=lambda prop: prop.identifier != "preset")  # the one that most people need comes first
     lines = [
         f"## {rna.name}",
         "",
@@ -85,7 +86,7 @@ def _values(prop: Any) -> str:
         return "`True`, `False`"
     if prop.type == "STRING":
         return "text"
-    kind = "whole number" if prop.type == "INT" else "radians" if prop.subtype == "ANGLE" else "number"
+    kind = "whole number" if prop.type == "INT" else "radians" if prop.unit == "ROTATION" else "number"
     low, high = (f"{float(f'{end:.6g}'):g}" for end in (prop.hard_min, prop.hard_max))
     if prop.hard_max >= (2**31 - 1 if prop.type == "INT" else 1e30):
         return f"{kind}, {low} or more"

@@ -40,7 +40,7 @@ def test_the_button_carries_the_scene_settings():
     scene_settings.preset = "TRI_1"
     scene_settings.mu = 4.0
     record = draw(panel.VIEW3D_PT_framelet)
-    assert record["operator"] == ["object.framelet_denoise"]
+    assert record["operator"] == ["object.framelet_denoise", "object.framelet_preview"]
     values = record["object.framelet_denoise"]
     assert (values.preset, values.mu) == ("TRI_1", 4.0)
 

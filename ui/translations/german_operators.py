@@ -7,6 +7,7 @@ NAMES = {
     "Add Noise": "Rauschen hinzufügen",
     "Analyze": "Zerlegen",
     "Angle Change": "Winkeländerung",
+    "Apply": "Anwenden",
     "Before/After": "Vorher/Nachher",
     "Cancel": "Abbrechen",
     "Clear Bands": "Bänder entfernen",
@@ -17,6 +18,7 @@ NAMES = {
     "Estimate Noise": "Rauschen messen",
     "Heat Map": "Wärmebild",
     "Hide Colors": "Farben ausblenden",
+    "Live Preview": "Live-Vorschau",
     "Rebuild": "Zusammensetzen",
     "Show Band": "Band zeigen",
 }

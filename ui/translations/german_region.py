@@ -97,10 +97,21 @@ TEXTS = {
     "Its value is the amount": "Sein Wert ist das Maß",
     "The original stays as it is": "Das Original bleibt, wie es ist",
     "Needs Object Mode": "Braucht den Objektmodus",
-    # A run
     "Cancel the run that is going on; everything stays as it was": (
         "Den laufenden Vorgang abbrechen; alles bleibt, wie es war"
     ),
+    # Live preview
+    "Show on the active mesh what the settings would give, while they are changed; Esc ends it": (
+        "Am aktiven Netz zeigen, was die Einstellungen ergäben, während sie geändert werden; Esc beendet es"
+    ),
+    "Keep what the preview shows, in the place that Output says": (
+        "Behalten, was die Vorschau zeigt, dort, wo es die Ausgabe vorsieht"
+    ),
+    "Make a mesh object active": "Ein Netz aktiv machen",
+    "The live preview is off": "Die Vorschau ist aus",
+    "The preview does not show these settings yet": "Die Vorschau zeigt diese Einstellungen noch nicht",
+    "Computing {name}": "{name} wird berechnet",
+    # A run that goes on
     "Framelet is not running": "Framelet läuft nicht",
     "Framelet is running; press Esc or the right mouse button to cancel": (
         "Framelet läuft; Esc oder die rechte Maustaste bricht ab"
