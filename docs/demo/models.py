@@ -29,8 +29,8 @@ def make_carved_monkey(name: str) -> bpy.types.Object:
     mesh = obj.data
     positions = np.array([vertex.co for vertex in mesh.vertices])
     normals = np.array([vertex.normal for vertex in mesh.vertices])
-    wave = np.sin(26.0 * positions[:, 2] + 4.0 * np.sin(5.0 * positions[:, 0]))
-    positions += (0.012 * np.tanh(2.0 * wave))[:, None] * normals
+    wave = np.sin(64.0 * positions[:, 2] + 6.0 * np.sin(5.0 * positions[:, 0]))
+    positions += (0.007 * np.tanh(2.0 * wave))[:, None] * normals
     mesh.attributes["position"].data.foreach_set("vector", positions.astype(np.float32).reshape(-1))
     mesh.update()
     return obj

@@ -22,7 +22,7 @@ def as_number(text):
         return None
 
 def sweep_copies(left, heights, wanted):
-    seen = []
+    seen, last = [], None
     for height in heights:
         bpy.context.window_manager.clipboard = ""
         simulate("MOUSEMOVE", "NOTHING", (left, height))
@@ -36,10 +36,14 @@ def sweep_copies(left, heights, wanted):
         found = copied.partition("(")[0].removeprefix("bpy.ops.") if copied.startswith("bpy.ops.") else copied
         number = as_number(found)
         if found == wanted or (number is not None and wanted == round(number, 4)):
-            return height, seen
+            # The first entry of a menu is active before the mouse is over it: the last place is surely within.
+            last = height
+            continue
+        if last is not None:
+            break
         if found and found not in seen:
             seen.append(found)
-    return None, seen
+    return last, seen
 
 result = sweep_copies(left, heights, wanted)
 """
@@ -75,6 +79,6 @@ def find_copied(
     return place, found
 
 
-def find_entry(session: Session, name: str, before: np.ndarray) -> tuple[int, int]:
+def find_entry(session: Session, name: str, before: np.ndarray, across: float = 0.5) -> tuple[int, int]:
     """Return the place of an entry of the menu that was opened since a picture of the screen was taken."""
-    return find_copied(session, name, changed_box(before, session.picture()))
+    return find_copied(session, name, changed_box(before, session.picture()), across)

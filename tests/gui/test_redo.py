@@ -9,7 +9,7 @@ from blender_window.sidebar import press, type_into
 
 
 def test_adjusting_runs_again_from_the_original(ball):
-    ball.run("bpy.context.scene.framelet.strength = 0.875")
+    ball.run("bpy.context.scene.framelet.strength = 0.875; region('UI').tag_redraw()")
     ball.settle()
     noisy = ball.run("result = digest('Ball')")
     press(ball, "object.framelet_denoise")
