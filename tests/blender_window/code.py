@@ -75,8 +75,8 @@ with override():
     space.region_3d.view_perspective = "PERSP"
     bpy.ops.view3d.view_orbit(angle=0.3, type="ORBITRIGHT")
     bpy.ops.view3d.view_selected()
-    space.region_3d.view_distance *= 0.75
-    space.region_3d.view_location.x += 0.35
+    space.region_3d.view_distance *= 1.12
+    space.region_3d.view_location.x += 0.3
 remember("Made")
 """
 """Blender's monkey with noise, seen from the front, left of the sidebar."""
