@@ -9,7 +9,7 @@ interface = next(module for name, module in sys.modules.items() if name.endswith
 interface.unregister()
 for panel in bpy.types.Panel.__subclasses__():
     if panel.__name__.startswith("VIEW3D_PT_framelet_"):
-        options = vars(panel).get("options_at_first", set(panel.bl_options) if hasattr(panel, "bl_options") else set())
+        options = vars(panel).get("options_at_first", set(getattr(panel, "bl_options", ())))
         panel.options_at_first = options
         panel.bl_options = options - {"DEFAULT_CLOSED"} if panel.__name__ in unfolded else options
 interface.register()

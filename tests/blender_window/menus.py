@@ -36,7 +36,7 @@ def sweep_copies(left, heights, wanted):
         found = copied.partition("(")[0].removeprefix("bpy.ops.") if copied.startswith("bpy.ops.") else copied
         number = as_number(found)
         if found == wanted or (number is not None and wanted == round(number, 4)):
-            # The first entry of a menu is active before the mouse is over it: the last place is surely within.
+            # The first entry is active before the mouse is over it: the last place is surely within.
             last = height
             continue
         if last is not None:
