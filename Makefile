@@ -67,6 +67,16 @@ gui: extension ## Use a real Blender window with mouse and keys, on a virtual sc
 	$(PYTHON) .ci/gui.py
 	FRAMELET_ZIP="$(ZIP)" $(ENVIRONMENT) run core --timeout $(GUI_TIMEOUT) -- -m pytest tests/gui
 
+.PHONY: screenshots
+screenshots: extension ## Take the screenshots of the documents in a real Blender window
+	$(PYTHON) .ci/gui.py
+	FRAMELET_ZIP="$(ZIP)" $(ENVIRONMENT) run core -- docs/demo/screenshots.py
+
+.PHONY: pictures
+pictures: ## Render the pictures of the documents again, half an hour
+	for script in parameters presets frames_and_bands; do \
+	  $(ENVIRONMENT) run bpy-5.2 -- docs/demo/$$script.py || exit 1; done
+
 .PHONY: quality
 quality: ## Compare with published filters, an hour or more; tables and plot go to docs
 	$(ENVIRONMENT) run benchmarks -- tests/benchmarks/quality/run.py --update

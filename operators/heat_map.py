@@ -17,7 +17,7 @@ from .coloring import chosen_limit, color_objects
 from .filled_reports import fill_band_range
 from .heat_settings import HeatMixin, shown_heat_names
 from .heat_values import QUANTITIES, heat_values
-from .scene_units import value_text
+from .scene_units import value_texts
 from .viewport import hide_unused_colors, show_vertex_colors
 
 if TYPE_CHECKING:
@@ -108,9 +108,7 @@ class OBJECT_OT_framelet_heat_map(HeatMixin, bpy.types.Operator):
         found = show_heat(context, done, self.quantity, limit)
         show_vertex_colors(context)
         shown = context.window_manager.framelet_band_range
-        lowest, highest = (
-            value_text(context.scene, value, kind.is_angle) for value in (shown.minimum, limit)
-        )
+        lowest, highest = value_texts(context.scene, [shown.minimum, limit], kind.is_angle)
         self.report(
             {"INFO"},
             rpt_(

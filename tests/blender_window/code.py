@@ -59,3 +59,24 @@ with override():
     bpy.ops.view3d.view_selected()
 remember("Made")
 """
+
+MONKEY = """
+with override():
+    bpy.ops.mesh.primitive_monkey_add()
+    obj = bpy.context.object
+    obj.name = "Monkey"
+    obj.modifiers.new("Subdivision", "SUBSURF").levels = subdivisions
+    bpy.ops.object.modifier_apply(modifier="Subdivision")
+    obj.modifiers.new("Triangulate", "TRIANGULATE").quad_method = "BEAUTY"
+    bpy.ops.object.modifier_apply(modifier="Triangulate")
+    bpy.ops.object.framelet_add_noise(sigma=0.2, seed=0)
+    bpy.ops.view3d.view_axis(type="FRONT")
+    space = view3d().spaces.active
+    space.region_3d.view_perspective = "PERSP"
+    bpy.ops.view3d.view_orbit(angle=0.3, type="ORBITRIGHT")
+    bpy.ops.view3d.view_selected()
+    space.region_3d.view_distance *= 0.75
+    space.region_3d.view_location.x += 0.35
+remember("Made")
+"""
+"""Blender's monkey with noise, seen from the front, left of the sidebar."""

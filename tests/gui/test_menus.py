@@ -4,7 +4,6 @@
 """Where else people look: menus, search, right click."""
 
 from blender_window.menus import find_entry
-from blender_window.pixels import changed_box
 
 CALL = """
 with override():
@@ -30,14 +29,9 @@ def use_entry(session, before):
     session.click(find_entry(session, "object.framelet_denoise", before))
 
 
-def test_menu_of_object_mode(ball):
+def test_own_menu(ball):
     noisy, before = ball.run(NOISY), ball.picture()
-    ball.run(CALL, name="VIEW3D_MT_object")
-    ball.settle(0.5)
-    left, bottom, width, _ = changed_box(before, ball.picture())
-    # Our submenu is the last entry.
-    before = ball.picture()
-    ball.click((left + width // 2, bottom + int(14 * ball.scale)), seconds=0.5)
+    ball.run(CALL, name="VIEW3D_MT_framelet")
     use_entry(ball, before)
     ball.wait_for(f"digest('Ball') != {noisy!r}")
 
