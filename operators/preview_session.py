@@ -16,7 +16,8 @@ from .denoise_job import DenoiseJob, DenoiseOutcome, compute
 from .denoise_object import read_job, write_outcome
 from .denoise_run import Written
 from .latest import Latest
-from .output import IN_PLACE, refusal
+from .output import refusal
+from .output_choices import IN_PLACE
 from .run_guard import find_mesh, find_object, mark_of, what_changed
 
 if TYPE_CHECKING:
@@ -168,7 +169,7 @@ class PreviewSession:
         Parameters
         ----------
         output : str
-            One of `output.OUTPUTS`.
+            One of `output_choices.OUTPUTS`.
 
         Raises
         ------
@@ -185,6 +186,11 @@ class PreviewSession:
         self.end()
         written = write_outcome(obj, replace(self._outcome[0], output=output), outcome)
         return Written(obj, written, outcome.measured)
+
+    @property
+    def has_ended(self) -> bool:
+        """Whether the thread has ended too."""
+        return self._latest.has_ended
 
     def join(self) -> None:
         """Wait until the thread of a preview that is over has ended."""
