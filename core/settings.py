@@ -255,12 +255,12 @@ PRESETS: Mapping[str, Preset] = {
     "MARCHING_CUBES": Preset(
         "Marching Cubes / CT",
         "For surfaces made of voxels, as from CT: turns steps into smooth shapes and does not shrink them",
-        {"method": "NORMALS", "sigma_n": 0.8, "average_steps": 15},
+        {"method": "NORMALS", "sigma_n": 0.8, "average_steps": 12},
     ),
     "SCULPT": Preset(
         "Sculpt (keep detail)",
-        "For sculpted and finely detailed meshes: removes half of the noise and leaves small strokes alone",
-        {"method": "AUTO", "strength": 0.5},
+        "For sculpted and finely detailed meshes with a little noise: keeps strokes a few edges wide",
+        {"method": "NORMALS", "sigma_n": 0.25, "average_steps": 1},
     ),
     "POSITIONS": Preset(
         "Positions",

@@ -17,7 +17,7 @@ from .coloring import chosen_limit, color_objects
 from .filled_reports import fill_band_range
 from .heat_settings import HeatMixin, shown_heat_names
 from .heat_values import QUANTITIES, heat_values
-from .scene_units import value_text
+from .scene_units import value_texts
 from .viewport import hide_unused_colors, show_vertex_colors
 
 if TYPE_CHECKING:
@@ -45,15 +45,21 @@ def show_heat(
 
 
 def refresh_heat(context: bpy.types.Context, objects: Iterable[bpy.types.Object]) -> None:
-    """Bring heat maps up to date after a run; the colors of objects that it did not treat stay."""
+    """Bring heat maps up to date after a run; the colors of objects that it did not treat stay.
+
+    Where that cannot be, as in Edit Mode, where attributes cannot be written, colors and legend are of the
+    run before, and the legend goes.
+    """
     shown = context.window_manager.framelet_band_range
-    stale = [obj for obj in objects if band_storage.HEAT_COLORS in obj.data.attributes]
-    if shown.quantity not in QUANTITIES or not stale:
+    colored = [obj for obj in objects if band_storage.HEAT_COLORS in obj.data.attributes]
+    if shown.quantity not in QUANTITIES or not colored:
         return
-    found = {obj.name: heat_values(obj, shown.quantity) for obj in stale}
-    show_heat(
-        context, found, shown.quantity, _heat_limit(context.scene.framelet_heat_map, found, shown.quantity)
-    )
+    if any(obj.mode != "OBJECT" or not run_memory.is_remembered(obj) for obj in colored):
+        shown.names = ""
+        return
+    found = {obj.name: heat_values(obj, shown.quantity) for obj in colored}
+    limit = _heat_limit(context.scene.framelet_heat_map, found, shown.quantity)
+    show_heat(context, found, shown.quantity, limit)
 
 
 def _heat_limit(properties: Any, found: dict[str, BandValues], quantity: str) -> float:
@@ -102,9 +108,7 @@ class OBJECT_OT_framelet_heat_map(HeatMixin, bpy.types.Operator):
         found = show_heat(context, done, self.quantity, limit)
         show_vertex_colors(context)
         shown = context.window_manager.framelet_band_range
-        lowest, highest = (
-            value_text(context.scene, value, kind.is_angle) for value in (shown.minimum, limit)
-        )
+        lowest, highest = value_texts(context.scene, [shown.minimum, limit], kind.is_angle)
         self.report(
             {"INFO"},
             rpt_(

@@ -4,9 +4,12 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import bpy
     import numpy as np
     from numpy.typing import NDArray
@@ -113,7 +116,29 @@ def length_text(scene: bpy.types.Scene, length: float) -> str:
 
 def value_text(scene: bpy.types.Scene, value: float, is_angle: bool) -> str:
     """Return what a color stands for in words: a length with its sign, or an angle in degrees."""
-    if is_angle:
-        return f"{value:.4g}°"
-    # A true minus sign, as wide as a plus; Blender writes a hyphen.
-    return f"−{length_text(scene, -value)}" if value < 0.0 else length_text(scene, value)
+    return value_texts(scene, [value], is_angle)[0]
+
+
+def value_texts(scene: bpy.types.Scene, values: Sequence[float], is_angle: bool) -> list[str]:
+    """Return lengths with their signs in words, all in the unit of the largest, or angles in degrees."""
+    unit, size = "°" if is_angle else "", 1.0
+    largest = max(map(abs, values))
+    if not is_angle:
+        unit, size = _unit_of(scene, largest)
+    # A true minus sign, as wide as a plus; and no zero has one.
+    return [f"{'−' if value < 0.0 else ''}{abs(value) / size:.4g}{unit}" for value in values]
+
+
+def _unit_of(scene: bpy.types.Scene, length: float) -> tuple[str, float]:
+    """Return the unit in which the scene shows a length, and its size in lengths of the scene.
+
+    Without units, and for lengths that are too small for any, that is no unit.
+    """
+    import bpy
+
+    units = scene.unit_settings
+    found = re.fullmatch(r"([\d.]+)(.*)", length_text(scene, length))
+    if units.system == "NONE" or found is None or (length and not float(found[1])):
+        return "", 1.0
+    unit = found[2]
+    return unit, bpy.utils.units.to_value(units.system, "LENGTH", f"1{unit}") / units.scale_length

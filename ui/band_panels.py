@@ -36,7 +36,7 @@ class VIEW3D_PT_framelet_bands(FrameletPanel, bpy.types.Panel):
             column.prop(scene.framelet, "levels")
         operator = layout.operator(OBJECT_OT_framelet_analyze.bl_idname, icon="MOD_MULTIRES")
         copy_frame_settings(scene.framelet, operator)
-        operator.max_megabytes = bands.max_megabytes
+        copy_values(bands, operator, ("max_megabytes",))
         obj = context.active_object
         n_bytes = _needed_bytes(scene, obj)
         column = settings_column(layout)

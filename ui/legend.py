@@ -14,7 +14,7 @@ from bpy.app.translations import pgettext_iface as iface_
 from gpu_extras.batch import batch_for_shader
 
 from ..operators import band_storage
-from ..operators.scene_units import value_text
+from ..operators.scene_units import value_texts
 from .legend_layout import (
     FONT_POINTS,
     LegendLayout,
@@ -56,7 +56,7 @@ def is_wanted(context: bpy.types.Context) -> bool:
 def legend_texts(scene: bpy.types.Scene, shown: bpy.types.PropertyGroup) -> tuple[str, list[str], str]:
     """Return the title, the labels from the lowest value up, and the note of the legend."""
     values = tick_values(shown.minimum, shown.maximum, shown.is_signed)
-    labels = [value_text(scene, value, shown.is_angle) for value in values]
+    labels = value_texts(scene, values, shown.is_angle)
     note = "" if shown.share >= 99.95 else iface_("{:.1f} % within").format(shown.share)
     return iface_(shown.title), labels, note
 

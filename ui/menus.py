@@ -19,7 +19,7 @@ from ..operators.equalize import OBJECT_OT_framelet_equalize
 from ..operators.estimate_noise import OBJECT_OT_framelet_estimate_noise
 from ..operators.heat_map import OBJECT_OT_framelet_heat_map, OBJECT_OT_framelet_hide_colors
 from ..operators.heat_settings import HEAT_NAMES
-from ..operators.setting_values import copy_frame_settings, copy_settings, copy_values
+from ..operators.setting_values import copy_frame_settings, copy_settings, copy_values, write_quietly
 from ..operators.show_band import OBJECT_OT_framelet_show_band
 from ..operators.synthesize import OBJECT_OT_framelet_synthesize
 from .see_panel import BUTTONS
@@ -39,7 +39,7 @@ class VIEW3D_MT_framelet(bpy.types.Menu):
         layout.separator()
         for quantity, text, _ in BUTTONS:
             operator = layout.operator(OBJECT_OT_framelet_heat_map.bl_idname, text=text)
-            operator.quantity = quantity
+            write_quietly(operator, "quantity", quantity)
             copy_values(scene.framelet_heat_map, operator, HEAT_NAMES)
         layout.operator(OBJECT_OT_framelet_hide_colors.bl_idname)
         layout.separator()
@@ -48,7 +48,7 @@ class VIEW3D_MT_framelet(bpy.types.Menu):
         copy_values(scene.framelet_equalizer, operator, EQUALIZER_NAMES)
         operator = layout.operator(OBJECT_OT_framelet_analyze.bl_idname)
         copy_frame_settings(scene.framelet, operator)
-        operator.max_megabytes = scene.framelet_bands.max_megabytes
+        copy_values(scene.framelet_bands, operator, ("max_megabytes",))
         operator = layout.operator(OBJECT_OT_framelet_show_band.bl_idname)
         copy_values(scene.framelet_bands, operator, SHOW_NAMES)
         layout.operator(OBJECT_OT_framelet_synthesize.bl_idname)

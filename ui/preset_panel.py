@@ -9,6 +9,7 @@ from bl_ui.utils import PresetPanel
 
 from ..core.settings import PRESETS
 from ..operators.presets import PRESET_FOLDER, OBJECT_OT_framelet_preset_add
+from ..operators.setting_values import write_quietly
 
 
 class VIEW3D_PT_framelet_presets(PresetPanel, bpy.types.Panel):
@@ -25,7 +26,10 @@ class VIEW3D_PT_framelet_presets(PresetPanel, bpy.types.Panel):
         """Draw the built-in presets, whose tooltips say what they are for, and the list of the user's."""
         draw_built_in(self.layout, context.scene.framelet)
         self.layout.separator()
-        super().draw(context)
+        if bpy.utils.preset_paths(PRESET_FOLDER):
+            super().draw(context)
+        else:
+            draw_add(self.layout, context)
 
 
 def draw_built_in(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:
@@ -33,6 +37,14 @@ def draw_built_in(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup)
     column = layout.column(align=True)
     for identifier in PRESETS:
         column.prop_enum(settings, "preset", identifier)
+
+
+def draw_add(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
+    """Draw the row that saves a preset, for when there is no folder yet; Blender would miss the paths."""
+    row = layout.row(align=True)
+    row.prop(context.window_manager, "preset_name", text="")
+    operator = row.operator(OBJECT_OT_framelet_preset_add.bl_idname, text="", icon="ADD")
+    write_quietly(operator, "name", context.window_manager.preset_name)
 
 
 classes = (VIEW3D_PT_framelet_presets,)

@@ -11,7 +11,7 @@ from ..operators import band_storage
 from ..operators.before_after import OBJECT_OT_framelet_before_after
 from ..operators.heat_map import OBJECT_OT_framelet_heat_map, OBJECT_OT_framelet_hide_colors
 from ..operators.heat_settings import HEAT_NAMES, shown_heat_names
-from ..operators.setting_values import copy_values
+from ..operators.setting_values import copy_values, write_quietly
 from .layouts import FrameletPanel, settings_column
 
 BUTTONS = (
@@ -39,7 +39,7 @@ class VIEW3D_PT_framelet_see(FrameletPanel, bpy.types.Panel):
                 row.operator(OBJECT_OT_framelet_hide_colors.bl_idname, text=text, icon=icon, depress=True)
                 continue
             operator = row.operator(OBJECT_OT_framelet_heat_map.bl_idname, text=text, icon=icon)
-            operator.quantity = quantity
+            write_quietly(operator, "quantity", quantity)
             copy_values(heat, operator, HEAT_NAMES)
         column = settings_column(layout)
         for name in shown_heat_names(heat, shown or heat.quantity):

@@ -166,7 +166,7 @@ def _denoise(
         motion -= prepared.noisy
         motion *= prepared.edge
         carrier = placed.carrier(connectivity, prepared.edge)
-        finished = finish(motion, carrier, region, placed.weights, constraints.pinned, blocks)
+        finished = finish(motion, carrier, region, placed.movable, placed.weights, constraints.pinned, blocks)
         vertices = placed.in_given_order(finished.vertices)
         report = _report(
             placed.original,

@@ -15,7 +15,7 @@ from .carrier import Carrier
 from .corner_lists import corners_of, faces_at, some_faces
 
 DEGENERATE = 1e-6
-"""Squared mean edge lengths of area up to which a face counts as degenerate."""
+"""Area up to which a face counts as degenerate."""
 
 
 class FaceWatch:
@@ -25,6 +25,8 @@ class FaceWatch:
     worked on says. A face is *folded* if its normal is at more than a right angle both to that of a face
     across one of its edges and to the sum of the normals, weighted by area, of the faces at its vertices.
     Where faces do not agree about their orientation nothing counts as folded.
+
+    Areas and volumes are in squared and cubed mean edge lengths.
 
     Parameters
     ----------
@@ -38,7 +40,7 @@ class FaceWatch:
     before, areas : ndarray, shape (3, F), float64
         Vector areas of the faces of the mesh that was worked on, in the input and after the last look.
     volume_before, volume : float
-        Signed volumes of the surface, then and now, in cubed scene units.
+        Signed volumes of the surface, then and now.
     was_folded, is_folded : ndarray, shape (F,), bool
         Which faces are folded, then and now.
     was_degenerate, is_degenerate : ndarray, shape (F,), bool
@@ -62,7 +64,7 @@ class FaceWatch:
 
     @property
     def area_before(self) -> float:
-        """Area of the faces in the input, in squared scene units."""
+        """Area of the faces in the input."""
         return float(np.sqrt(dots(self.before, self.before)).sum())
 
     @property
@@ -105,7 +107,7 @@ class FaceWatch:
         """
         carrier, topology = self.carrier, self.carrier.topology
         moved = np.flatnonzero(changed if carrier.vertex is None else changed[carrier.vertex])
-        self._points[:, moved] = vertices[moved].T - self._origin[:, None]
+        self._points[:, moved] = (vertices[moved].T - self._origin[:, None]) / self.carrier.edge
         faces = faces_at(topology, changed)
         self.areas[:, faces] = self._areas_of(faces)
         self.is_degenerate[faces] = self._degenerate(self.areas[:, faces])
@@ -121,8 +123,10 @@ class FaceWatch:
         areas = np.empty((3, surface.n_faces))
 
         def move(start: int, stop: int) -> None:
-            points[:, start:stop] = vertices[start:stop].T
-            points[:, start:stop] -= self._origin[:, None]
+            part = points[:, start:stop]
+            part[:] = vertices[start:stop].T
+            part -= self._origin[:, None]
+            part /= self.carrier.edge
 
         def kernel(start: int, stop: int) -> float:
             part = area_rows(points, surface, start, stop)
@@ -141,8 +145,7 @@ class FaceWatch:
 
     def _degenerate(self, areas: NDArray[np.float64]) -> NDArray[np.bool_]:
         """Return which vector areas are next to nothing, shape (n,), bool."""
-        least = DEGENERATE * self.carrier.edge**2
-        return dots(areas, areas) <= least * least
+        return dots(areas, areas) <= DEGENERATE * DEGENERATE
 
     def _over(self, faces: NDArray[np.intp]) -> NDArray[np.bool_]:
         """Return which of some faces have turned over, shape (n,), bool."""

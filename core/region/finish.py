@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """From the displacements that a method found to the positions of the result.
 
-The order: direction along the normals, weights, offset for the volume, largest displacement, folds. Folds
-come last, so that no other step makes new ones; damping changes the volume, so the offset is then found anew.
+The order: shifts at seams, direction along the normals, weights, offset for the volume, largest displacement,
+folds. Folds come last, so that no other step makes new ones; as damping changes the volume, the offset is
+then found again.
 """
 
 from __future__ import annotations
@@ -37,6 +38,7 @@ def finish(
     found: NDArray[np.float64],
     carrier: Carrier,
     region: Region,
+    movable: NDArray[np.bool_] | None,
     weights: NDArray[np.float64] | None,
     pinned: NDArray[np.intp],
     blocks: Blocks,
@@ -51,8 +53,10 @@ def finish(
         That mesh, and the one that moves.
     region : Region
         The limits.
+    movable : ndarray, shape (n,), bool, or None
+        Vertices of the mesh that was worked on that may move; None for all.
     weights : ndarray, shape (n,), or None
-        Shares of motion, for the vertices of the mesh that was worked on.
+        Shares of their motion.
     pinned : ndarray, shape (p,), int
         Vertices of it that take no part in the offset for the volume.
     blocks : Blocks
@@ -62,22 +66,23 @@ def finish(
     -------
     Finished
     """
-    motion = Motion(found, carrier.topology, carrier.connectivity, region, weights, pinned)
+    motion = Motion(found, carrier, region, movable, weights, pinned)
     watch = FaceWatch(carrier, blocks)
     shares = np.ones(found.shape[1])
-    if not motion.has_offset:
-        vertices = _settled(motion.at(), shares, watch, region, blocks)
+    vertices = _settled(motion.at(), shares, watch, region, blocks)
+    if not (region.keep_volume and carrier.connectivity.is_closed):
         return Finished(vertices, watch, _n_damped(motion.at(), shares))
+    area = watch.area_before * motion.allow_offset(shares)
 
     def volume_at(offset: float) -> float:
         return watch.volume_at(carrier.moved(motion.at(offset) * shares, blocks))
 
     offset = 0.0
     for _ in range(VOLUME_ROUNDS):
-        offset = volume_offset(volume_at, watch.volume_before, watch.area_before * motion.mean_share, offset)
-        n_damped = np.count_nonzero(shares < 1.0), shares.sum()
+        offset = volume_offset(volume_at, watch.volume_before, area, offset)
+        before = shares.copy()
         vertices = _settled(motion.at(offset), shares, watch, region, blocks)
-        if n_damped == (np.count_nonzero(shares < 1.0), shares.sum()):
+        if np.array_equal(before, shares):
             break
     return Finished(vertices, watch, _n_damped(motion.at(offset), shares))
 

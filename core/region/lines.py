@@ -169,8 +169,12 @@ def _corners(
     center = points[:, inner].astype(np.float64)
     turn = _turn(center - points[:, neighbors[:, 0]], points[:, neighbors[:, 1]] - center)
     wide = _turn(center - points[:, reached[0]], points[:, reached[1]] - center)
+    at_vertex = np.zeros(n_vertices)
+    at_vertex[inner] = turn
+    is_corner = (wide > np.radians(CORNER_TURN)) & (turn > CORNER_SHARE * wide)
+    is_corner &= turn >= at_vertex[neighbors].max(axis=1, initial=0.0)  # of neighbors the sharpest
     mask = np.zeros(n_vertices, bool)
-    mask[inner[(wide > np.radians(CORNER_TURN)) & (turn > CORNER_SHARE * wide)]] = True
+    mask[inner[is_corner]] = True
     return mask
 
 

@@ -7,13 +7,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..surface.connectivity import Connectivity
 from ..surface.geometry import vertex_normals
-from ..surface.surface_mesh import SurfaceMesh
+from .carrier import Carrier
 from .region import Region
-
-TAPER_RINGS = 4
-"""Rings over which the offset that keeps the volume fades out beside vertices that stay."""
+from .seam import fade_shift_in, faded_in, rings_beside
 
 
 class Motion:
@@ -23,12 +20,12 @@ class Motion:
     ----------
     found : ndarray, shape (3, n), float64
         Displacements that a method found, in the unit of the mesh; kept and changed.
-    surface : SurfaceMesh
-        The mesh that it worked on, before.
-    connectivity : Connectivity
-        Its neighborhoods.
+    carrier : Carrier
+        The mesh that it worked on.
     region : Region
         Largest displacement, direction, volume.
+    movable : ndarray, shape (n,), bool, or None
+        Vertices that may move at all; beside the others shifts fade in.
     weights : ndarray, shape (n,), or None
         Share of its motion that each vertex makes.
     pinned : ndarray, shape (p,), int
@@ -38,71 +35,70 @@ class Motion:
     def __init__(
         self,
         found: NDArray[np.float64],
-        surface: SurfaceMesh,
-        connectivity: Connectivity,
+        carrier: Carrier,
         region: Region,
+        movable: NDArray[np.bool_] | None,
         weights: NDArray[np.floating] | None,
         pinned: NDArray[np.intp],
     ) -> None:
+        surface = carrier.topology
         self._found = found
+        self._edge = carrier.edge
+        self._surface = surface
         self._limit = region.max_displacement
+        self._weights, self._pinned = weights, pinned
+        self._normals: NDArray[np.float64] | None = None
         self._direction: NDArray[np.float64] | None = None
-        if region.along_normals or region.keep_volume:
+        if movable is not None or region.along_normals:
             # Those of the denoised surface, which is as smooth as it will be.
-            normals = vertex_normals(surface.with_vertices(surface.vertices + found.T))
-            normals = np.ascontiguousarray(normals.T)
-            if region.along_normals:
-                found[:] = normals * np.einsum("cn,cn->n", normals, found)
+            normals = self._normals_after(found)
+        if movable is not None:
+            fade_shift_in(found, normals, ~movable, pinned, surface.edges)
+        if region.along_normals:
+            found[:] = normals * np.einsum("cn,cn->n", normals, found)
+            self._normals = normals
         if weights is not None:
             found *= weights
-        if region.keep_volume and connectivity.is_closed:
-            stays = np.zeros(surface.n_vertices, bool)
-            stays[pinned] = True
-            share = tapered(stays, surface.edges)
-            self._direction = normals * (share if weights is None else share * weights)
 
-    @property
-    def has_offset(self) -> bool:
-        """Whether an offset can do something."""
-        return self._direction is not None and bool(self._direction.any())
+    def allow_offset(self, shares: NDArray[np.float64]) -> float:
+        """Choose the directions of the offset: the normals after the displacements, beside pins fading in.
 
-    @property
-    def mean_share(self) -> float:
-        """Mean share that the vertices have in the offset."""
-        if self._direction is None:
-            return 0.0
-        return float(np.sqrt(np.einsum("cn,cn->n", self._direction, self._direction)).mean())
+        Parameters
+        ----------
+        shares : ndarray, shape (n,)
+            Share of its displacement that each vertex makes.
+
+        Returns
+        -------
+        float
+            Mean share that the vertices have in the offset.
+        """
+        normals = self._normals_after(self.at() * shares) if self._normals is None else self._normals
+        stays = np.zeros(self._surface.n_vertices, bool)
+        stays[self._pinned] = True
+        share = faded_in(rings_beside(stays, self._surface.edges))
+        if self._weights is not None:
+            share *= self._weights
+        self._direction = normals * (self._edge * share)
+        return float(share.mean())
 
     def at(self, offset: float = 0.0) -> NDArray[np.float64]:
-        """Return the displacements, shape (3, n), with an offset along the normals, in the mesh's unit."""
+        """Return the displacements, shape (3, n), with an offset along the normals in mean edge lengths."""
         moved = self._found
         if offset and self._direction is not None:
             moved = moved + offset * self._direction
         if self._limit is None:
             return moved
-        length = np.sqrt(np.einsum("cn,cn->n", moved, moved))
-        is_far = length > self._limit
-        return moved * np.divide(self._limit, length, out=np.ones_like(length), where=is_far)
+        length, limit = self._lengths(moved), self._limit / self._edge
+        return moved * np.divide(limit, length, out=np.ones_like(length), where=length > limit)
 
+    def _normals_after(self, displacement: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the unit normals of vertices after a displacement, shape (3, n)."""
+        # In edge lengths, so that squares of areas are within the range of numbers.
+        points = (self._surface.vertices + displacement.T) / self._edge
+        return np.ascontiguousarray(vertex_normals(self._surface.with_vertices(points)).T)
 
-def tapered(stays: NDArray[np.bool_], edges: NDArray[np.integer]) -> NDArray[np.float64]:
-    """Return a share for each vertex, shape (N,): 0 where it stays, 1 far from there, smooth between.
-
-    Parameters
-    ----------
-    stays : ndarray, shape (N,), bool
-        Vertices with share 0.
-    edges : ndarray, shape (E, 2), int
-        The edges along which rings are counted.
-    """
-    share = np.where(stays, 0.0, 1.0)
-    if not stays.any():
-        return share
-    reached = stays.copy()
-    for ring in range(1, TAPER_RINGS):
-        one, other = reached[edges[:, 0]], reached[edges[:, 1]]
-        fresh = np.concatenate((edges[one & ~other, 1], edges[other & ~one, 0]))
-        reached[fresh] = True
-        step = ring / TAPER_RINGS
-        share[fresh] = step * step * (3.0 - 2.0 * step)
-    return share
+    def _lengths(self, vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the lengths of vectors, shape (3, n), in mean edge lengths."""
+        vectors = vectors / self._edge
+        return np.sqrt(np.einsum("cn,cn->n", vectors, vectors))

@@ -235,6 +235,41 @@ def test_another_run_brings_the_heat_map_up_to_date(torus):
     assert not torus.data.color_attributes
 
 
+def test_a_run_in_edit_mode_takes_the_legend_away(torus):
+    bpy.ops.object.framelet_heat_map()
+    first = colors(torus)
+    bpy.ops.object.mode_set(mode="EDIT")
+    assert bpy.ops.object.framelet_denoise(preset="TRI_1") == {"FINISHED"}
+    assert not shown().names
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert np.array_equal(colors(torus), first)
+    bpy.ops.object.framelet_heat_map()
+    assert shown().names == "Torus" and not np.array_equal(colors(torus), first)
+
+
+def test_a_new_object_has_a_heat_map_of_its_own(torus):
+    bpy.ops.object.framelet_heat_map(quantity="LENGTH")
+    first = colors(torus)
+    bpy.ops.object.framelet_denoise(preset="TRI_1", output="NEW_OBJECT")
+    new = bpy.context.object
+    assert new != torus and shown().names == new.name
+    values = heat_values(new, "LENGTH").values
+    assert np.allclose(colors(new), map_colors(SEQUENTIAL, values / np.percentile(values, 98)), atol=1e-5)
+    assert np.array_equal(colors(torus), first)
+
+
+def test_a_shape_key_has_a_heat_map_too(torus):
+    before = mesh_bridge.read_surface(torus).vertices
+    bpy.ops.object.framelet_denoise(preset="TRI_1", output="SHAPE_KEY")
+    run = last_run(torus)
+    assert np.array_equal(run.before, before) and np.array_equal(
+        run.after, mesh_bridge.read_surface(torus).vertices
+    )
+    assert bpy.ops.object.framelet_heat_map() == {"FINISHED"}
+    assert bpy.ops.object.framelet_before_after() == {"FINISHED"}
+    assert np.array_equal(mesh_bridge.read_surface(torus).vertices, before)
+
+
 def test_the_report_says_the_range(torus, capfd):
     bpy.context.scene.unit_settings.system = "NONE"
     bpy.ops.object.framelet_heat_map()

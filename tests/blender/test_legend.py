@@ -2,11 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the legend shows, where, and when. Drawing itself needs a window; see tests/gui."""
 
+import re
+
 import bpy
 import meshes
 import numpy as np
 import pytest
 from framelet.operators.colormaps import DIVERGING, SEQUENTIAL, map_colors
+from framelet.operators.scene_units import value_texts
 from framelet.ui import legend
 from framelet.ui.legend_layout import Rectangle, free_area, lay_out_legend, tick_values
 
@@ -178,11 +181,32 @@ def test_labels_have_the_units_of_the_scene(torus):
     bpy.ops.object.framelet_heat_map(range_rule="FIXED", limit=0.002)
     title, labels, _ = texts()
     assert title == "Displacement along normals"
-    assert labels == ["−2 mm", "−1 mm", "0 m", "1 mm", "2 mm"]
+    assert labels == ["−2 mm", "−1 mm", "0 mm", "1 mm", "2 mm"]
     bpy.context.scene.unit_settings.system = "NONE"
     assert texts()[1] == ["−0.002", "−0.001", "0", "0.001", "0.002"]
     bpy.context.scene.unit_settings.system = "IMPERIAL"
-    assert texts()[1][-1].endswith(('"', "thou", "mil"))
+    assert texts()[1][-1].endswith(" thou")
+
+
+@pytest.mark.parametrize("system", ["METRIC", "IMPERIAL", "NONE"])
+@pytest.mark.parametrize("scale", [1.0, 0.001, 1000.0])
+@pytest.mark.parametrize("limit", [1e-12, 3.3e-5, 0.0108137, 0.3, 0.305, 7.0, 1500.0, 4e7])
+def test_all_labels_have_one_unit_and_are_true(system, scale, limit):
+    units = bpy.context.scene.unit_settings
+    units.system, units.scale_length = system, scale
+    labels = value_texts(bpy.context.scene, [-limit, -limit / 2, 0.0, limit / 2, limit], False)
+    parts = [re.fullmatch(r"−?([\d.e+-]+?)( ?[^\d.e+-]*)", label).groups() for label in labels]
+    numbers, suffixes = zip(*parts, strict=True)
+    assert len(set(suffixes)) == 1
+    assert [label.startswith("−") for label in labels] == [True, True, False, False, False]
+    numbers = [float(number) for number in numbers]
+    assert numbers[2] == 0 and numbers[0] == numbers[4] and numbers[1] == numbers[3]
+    assert numbers[3] == pytest.approx(numbers[4] / 2, rel=1e-3)
+    if suffixes[0]:
+        back = bpy.utils.units.to_value(system, "LENGTH", f"{numbers[4]}{suffixes[0]}") / units.scale_length
+        assert back == pytest.approx(limit, rel=1e-3)
+    else:
+        assert numbers[4] == pytest.approx(limit, rel=1e-3)
 
 
 def test_angles_are_in_degrees(torus):

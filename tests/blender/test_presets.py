@@ -98,6 +98,13 @@ def test_the_list_shows_every_built_in_preset_and_what_it_is_for():
         assert (item.name and len(item.description) > 20) or item.identifier == setting_values.CUSTOM
 
 
+def test_the_first_preset_can_be_saved():
+    record = draw(lambda drawn, context: preset_panel.draw_add(drawn.layout, context))
+    assert record["prop"] == ["preset_name"]
+    manager = bpy.context.window_manager
+    assert record["object.framelet_preset_add"].name == manager.preset_name != ""
+
+
 def test_the_buttons_of_the_list_lead_to_its_operators():
     menu = bpy.types.VIEW3D_PT_framelet_presets
     assert menu.preset_add_operator == "object.framelet_preset_add"

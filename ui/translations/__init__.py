@@ -8,9 +8,9 @@ everything else. A test compares the entries with all texts that Framelet shows.
 
 import bpy
 
-from . import german_bands, german_operators, german_reports, german_settings
+from . import german_bands, german_operators, german_region, german_reports, german_settings
 
-_GERMAN = (german_operators, german_settings, german_bands, german_reports)
+_GERMAN = (german_operators, german_settings, german_bands, german_region, german_reports)
 
 TRANSLATIONS = {
     # The language without a country serves all countries.

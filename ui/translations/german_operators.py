@@ -7,7 +7,9 @@ NAMES = {
     "Add Noise": "Rauschen hinzufügen",
     "Analyze": "Zerlegen",
     "Angle Change": "Winkeländerung",
+    "Apply": "Anwenden",
     "Before/After": "Vorher/Nachher",
+    "Cancel": "Abbrechen",
     "Clear Bands": "Bänder entfernen",
     "Compare": "Vergleichen",
     "Denoise": "Entrauschen",
@@ -16,6 +18,7 @@ NAMES = {
     "Estimate Noise": "Rauschen messen",
     "Heat Map": "Wärmebild",
     "Hide Colors": "Farben ausblenden",
+    "Live Preview": "Live-Vorschau",
     "Rebuild": "Zusammensetzen",
     "Show Band": "Band zeigen",
 }

@@ -26,8 +26,8 @@ TEXTS = {
         "Für Oberflächen aus Voxeln, etwa von CT: macht aus Stufen glatte Formen und schrumpft sie nicht"
     ),
     "Sculpt (keep detail)": "Skulptur (Details behalten)",
-    "For sculpted and finely detailed meshes: removes half of the noise and leaves small strokes alone": (
-        "Für modellierte und fein gegliederte Netze: entfernt das halbe Rauschen und lässt kleine Striche stehen"
+    "For sculpted and finely detailed meshes with a little noise: keeps strokes a few edges wide": (
+        "Für modellierte und fein gegliederte Netze mit wenig Rauschen: erhält Striche von wenigen Kanten Breite"
     ),
     "Positions": "Positionen",
     "For even, soft smoothing of any mesh: the frame that fits its faces, vector shrinkage": (
