@@ -25,17 +25,27 @@ _session: PreviewSession | None = None
 _ending: list[PreviewSession] = []
 """Previews that are over, whose threads may not have noticed yet."""
 
+_message = ""
+"""What the last preview said when it ended."""
+
 _resumed: Mark | None = None
 
 
 def current_preview() -> PreviewSession | None:
     """Return the preview that is on, or None."""
-    return _session if _session is not None and _session.is_on else None
+    global _session, _message
+    if _session is not None and not _session.is_on:
+        _ending.append(_session)
+        _message, _session = _session.message, None
+    if _ending:
+        _ending[:] = [ended for ended in _ending if not ended.has_ended]
+    return _session
 
 
 def preview_message() -> str:
     """Return why nothing is shown, or why the last preview ended; empty if there is nothing to say."""
-    return _session.message if _session is not None else ""
+    session = current_preview()
+    return _message if session is None else session.message
 
 
 def start_preview(obj: bpy.types.Object, scene: bpy.types.Scene) -> PreviewSession:
@@ -46,10 +56,10 @@ def start_preview(obj: bpy.types.Object, scene: bpy.types.Scene) -> PreviewSessi
     ValueError
         In one sentence, if there can be none.
     """
-    global _session
+    global _session, _message
     end_preview()
-    if _session is not None:
-        _ending.append(_session)
+    current_preview()
+    _message = ""
     _session = begin_preview(obj, to_settings(scene.framelet), to_region_options(scene.framelet))
     tick_preview()
     if not bpy.app.timers.is_registered(_on_timer):
@@ -81,7 +91,7 @@ def end_preview() -> None:
 def stop_preview() -> None:
     """Turn the preview off and wait until its thread has ended."""
     end_preview()
-    leave_preview()
+    current_preview()
     while _ending:
         _ending.pop().join()
     if bpy.app.timers.is_registered(_on_timer):
@@ -90,11 +100,10 @@ def stop_preview() -> None:
 
 def leave_preview() -> None:
     """Forget the preview of a file that is being closed."""
-    global _session
-    if _session is not None:
-        _session.leave()
-        _ending.append(_session)
-        _session = None
+    session = current_preview()
+    if session is not None:
+        session.leave()
+        current_preview()
 
 
 def before_undo() -> None:

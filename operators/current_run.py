@@ -21,7 +21,13 @@ _ending: list[DenoiseRun] = []
 
 def current_run() -> DenoiseRun | None:
     """Return the run that is going on, or None."""
-    return _run if _run is not None and _run.is_active else None
+    global _run
+    if _run is not None and not _run.is_active:
+        _ending.append(_run)
+        _run = None
+    if _ending:
+        _ending[:] = [ended for ended in _ending if not ended.wait(0.0)]
+    return _run
 
 
 def set_current(run: DenoiseRun) -> None:
@@ -33,11 +39,8 @@ def set_current(run: DenoiseRun) -> None:
         In one sentence, if another one is going on.
     """
     global _run
-    _ending[:] = [ended for ended in _ending if not ended.wait(0.0)]
     if current_run() is not None:
         raise ValueError(f"{IS_RUNNING}.")
-    if _run is not None and not _run.wait(0.0):
-        _ending.append(_run)
     _run = run
 
 
@@ -57,10 +60,9 @@ def touch_current() -> None:
 
 def stop_current() -> None:
     """Cancel the run that is going on, and wait until its thread and those of canceled ones have ended."""
-    global _run
-    if _run is not None:
-        _run.cancel()
-        _ending.append(_run)
-        _run = None
+    run = current_run()
+    if run is not None:
+        run.cancel()
+        current_run()
     while _ending:
         _ending.pop().wait()

@@ -43,7 +43,7 @@ class DenoiseJob:
     region : Region or None
         What else limits the run.
     output : str
-        One of `output.OUTPUTS`, where the result goes.
+        One of `output_choices.OUTPUTS`, where the result goes.
     """
 
     name: str

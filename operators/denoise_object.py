@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, NamedTuple
 from ..core.region_options import RegionOptions
 from . import run_memory
 from .denoise_job import DenoiseJob, DenoiseOutcome, MeasuredReport, compute
-from .output import IN_PLACE, SHAPE_KEY, refusal, write_output
+from .output import refusal, write_output
+from .output_choices import IN_PLACE, SHAPE_KEY
 from .region_bridge import read_region
 from .scene_units import linear_part
 from .shape_keys import read_followers
@@ -39,7 +40,7 @@ def read_job(
     settings : DenoiseSettings
         What will be done.
     output : str
-        One of `output.OUTPUTS`.
+        One of `output_choices.OUTPUTS`.
     options : RegionOptions, optional
         What limits the run; by default selection and hidden vertices alone.
 
@@ -74,7 +75,7 @@ def write_outcome(obj: bpy.types.Object, job: DenoiseJob, outcome: DenoiseOutcom
     """
     followers = {} if job.output == SHAPE_KEY else read_followers(obj)
     written = write_output(obj, job.surface, outcome.vertices, job.output)
-    run_memory.remember(written, job.surface, followers)
+    run_memory.remember(written, job.surface, outcome.vertices, followers)
     return written
 
 
@@ -103,7 +104,7 @@ def denoise_object(
     callback : callable, optional
         `callback(fraction, change)`, called after each iteration; returns True to stop.
     output : str
-        Where the result goes, one of `output.OUTPUTS`.
+        Where the result goes, one of `output_choices.OUTPUTS`.
     options : RegionOptions, optional
         What limits the run to parts of the mesh, and how far vertices may move.
 

@@ -215,7 +215,7 @@ def begin_run(
     settings : DenoiseSettings
         What to do with each.
     output : str
-        One of `output.OUTPUTS`.
+        One of `output_choices.OUTPUTS`.
     options : RegionOptions, optional
         What limits the run.
 

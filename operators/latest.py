@@ -74,6 +74,11 @@ class Latest(Generic[Request, Result]):
             self._waiting.clear()
             self._changed.notify_all()
 
+    @property
+    def has_ended(self) -> bool:
+        """Whether the thread has ended."""
+        return not self._thread.is_alive()
+
     def join(self) -> None:
         """Wait until the thread has ended; after `close`."""
         self._thread.join()

@@ -1,8 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Blender meshes as arrays and back: with `band_storage` and `shape_keys` all that touches mesh data.
+"""Blender meshes as arrays and back.
 
-What limits a run to parts of a mesh is read through it by `region_bridge`.
+With `band_storage`, `shape_keys` and `kept_original` this is all that touches mesh data. What limits a run to
+parts of a mesh is read through it by `region_bridge`.
 
 In Object Mode the arrays come from the mesh, in Edit Mode from the BMesh of the edit session. With shape keys
 the active key is what is read and edited, as in Blender's own Edit Mode. Nothing but positions is written.

@@ -6,8 +6,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ..core.choices import Choice
 from . import mesh_bridge
+from .output_choices import IN_PLACE, NEW_OBJECT, SHAPE_KEY
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -17,19 +17,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..core import SurfaceMesh
-
-IN_PLACE, SHAPE_KEY, NEW_OBJECT = "IN_PLACE", "SHAPE_KEY", "NEW_OBJECT"
-
-OUTPUTS = (
-    Choice(IN_PLACE, "In Place", "The mesh itself is changed; with shape keys, the active one"),
-    Choice(
-        SHAPE_KEY,
-        "Shape Key",
-        "A new shape key holds the result; its value sets the amount, also later, and can be keyed",
-    ),
-    Choice(NEW_OBJECT, "New Object", "A copy of the object holds the result; the original stays as it is"),
-)
-"""The choices of the setting `output`."""
 
 KEY_NAME = "Denoised"
 """Name of the shape key."""
@@ -46,7 +33,7 @@ def refusal(obj: bpy.types.Object, output: str) -> str | None:
     obj : bpy.types.Object
         The object that will be denoised.
     output : str
-        One of `OUTPUTS`.
+        One of `output_choices.OUTPUTS`.
     """
     if output == IN_PLACE:
         return mesh_bridge.refusal(obj)
@@ -78,7 +65,7 @@ def write_output(
     vertices : ndarray, shape (N, 3)
         New positions in object space.
     output : str
-        One of `OUTPUTS`.
+        One of `output_choices.OUTPUTS`.
 
     Returns
     -------

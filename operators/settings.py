@@ -9,7 +9,7 @@ from typing import Any
 import bpy
 
 from ..core.settings import DEFAULT_PRESET, PRESETS, DenoiseSettings, SettingInfo
-from .output import IN_PLACE, OUTPUTS
+from .output_choices import IN_PLACE, OUTPUTS
 from .region_settings import RegionMixin
 from .setting_values import CUSTOM, DEFINING, FRAME_NAMES, follow_preset, leave_preset
 

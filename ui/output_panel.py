@@ -7,7 +7,7 @@ from __future__ import annotations
 import bpy
 from bpy.app.translations import pgettext_n as n_
 
-from ..operators.output import NEW_OBJECT, SHAPE_KEY
+from ..operators.output_choices import NEW_OBJECT, SHAPE_KEY
 from .layouts import FrameletPanel, settings_column
 
 _HINTS = {

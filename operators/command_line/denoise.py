@@ -10,8 +10,17 @@ from typing import TYPE_CHECKING
 
 from ...core.region_options import RegionOptions
 from ...core.settings import DenoiseSettings
-from .arguments import HelpFormatter, add_setting_options, settings_from
-from .file_types import check_source, file_type
+from ..output_choices import IN_PLACE, OUTPUTS
+from .arguments import (
+    HelpFormatter,
+    add_setting_options,
+    as_word,
+    choice_list,
+    choice_type,
+    describe_choices,
+    settings_from,
+)
+from .file_types import BLEND, check_source, file_type
 from .mesh_work import check_blender, count, describe_input, work_on_meshes
 from .messages import USAGE_ERROR, CommandError, Messages
 from .region_arguments import add_region_options, region_options_from
@@ -50,6 +59,15 @@ def add_command(subparsers: argparse._SubParsersAction) -> None:
     files.add_argument(
         "--report", metavar="FILE.json", type=Path, help="write settings and measurements here"
     )
+    identifiers = [choice.identifier for choice in OUTPUTS]
+    files.add_argument(
+        "--output",
+        type=choice_type(identifiers),
+        metavar=choice_list(identifiers),
+        default=IN_PLACE,
+        help="where the denoised surface goes in a .blend file (default: in-place)"
+        + describe_choices((choice.identifier, choice.description) for choice in OUTPUTS),
+    )
     add_setting_options(parser)
     add_region_options(parser)
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
@@ -72,6 +90,11 @@ def run(arguments: argparse.Namespace) -> None:
     source, target, report = arguments.source, arguments.target, arguments.report
     settings, options = settings_from(arguments), region_options_from(arguments)
     _check_files(source, target, report)
+    output = arguments.output
+    if output != IN_PLACE and file_type(target) != BLEND:
+        raise CommandError(
+            f"--output {as_word(output)} needs a .blend file as OUT, but {target} is none.", USAGE_ERROR
+        )
     check_blender()
     from .exporting import export
     from .importing import opened
@@ -80,7 +103,7 @@ def run(arguments: argparse.Namespace) -> None:
     messages = Messages(arguments.quiet)
     with Staging() as staging, opened(source, messages) as surfaces:
         messages.say(describe_input(source, surfaces))
-        outcome = _denoise(source, surfaces, settings, options, messages)
+        outcome = _denoise(source, surfaces, settings, options, output, messages)
         export(surfaces.without(outcome.refused_objects), target, staging, messages)
         if report is not None:
             write_report(
@@ -116,6 +139,7 @@ def _denoise(
     surfaces: Surfaces,
     settings: DenoiseSettings,
     options: RegionOptions,
+    output: str,
     messages: Messages,
 ) -> Outcome:
     """Denoise each mesh and say what was done."""
@@ -123,7 +147,7 @@ def _denoise(
 
     def work(obj: bpy.types.Object) -> DenoiseReport:
         with messages.progress(f"Denoising {obj.name}") as callback:
-            report = denoise_object(obj, settings, callback, options=options)
+            report = denoise_object(obj, settings, callback, output, options)
         for line in _describe_result(obj.name, report):
             messages.say(line)
         return report
