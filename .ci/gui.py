@@ -6,8 +6,8 @@
     python3 .ci/gui.py
 
 Does nothing where both are installed. Else, on Linux and as root, it makes a small Debian system with both in
-`.venv/gui` (2 GB, a few minutes); nothing is installed on the computer but debootstrap, if it is missing. Elsewhere it
-says what to install; the tests are then skipped.
+`.venv/gui` (2 GB, a few minutes); nothing is installed on the computer but debootstrap, if it is missing.
+Elsewhere it says what to install; the tests are then skipped.
 """
 
 from __future__ import annotations

@@ -18,10 +18,18 @@ def corners_of(surface: SurfaceMesh, faces: NDArray[np.integer]) -> tuple[NDArra
     return counts, np.arange(counts.sum()) + np.repeat(first - begin, counts)
 
 
+def face_of(surface: SurfaceMesh, corner: NDArray[np.intp]) -> NDArray[np.intp]:
+    """Return the face of each of some corners, shape (n,)."""
+    size = surface.common_face_size()
+    if size:
+        return corner // size
+    return np.searchsorted(surface.face_offset, corner, side="right") - 1
+
+
 def faces_at(surface: SurfaceMesh, is_wanted: NDArray[np.bool_]) -> NDArray[np.intp]:
     """Return the faces that have one of the wanted vertices, a mask of shape (N,), ascending."""
     corner = np.flatnonzero(is_wanted[surface.corner_vertex])
-    face = np.searchsorted(surface.face_offset, corner, side="right") - 1
+    face = face_of(surface, corner)
     return face[np.diff(face, prepend=-1) > 0]
 
 

@@ -12,7 +12,7 @@ from ..surface.face_changes import face_tips
 from ..surface.geometry import area_rows
 from ..surface.surface_mesh import SurfaceMesh
 from .carrier import Carrier
-from .corner_lists import corners_of, faces_at, some_faces
+from .corner_lists import corners_of, face_of, faces_at, some_faces
 
 DEGENERATE = 1e-6
 """Area up to which a face counts as degenerate."""
@@ -51,12 +51,11 @@ class FaceWatch:
         self.carrier = carrier
         self._blocks = blocks
         surface = carrier.surface
-        self._all = np.arange(carrier.topology.n_faces)
         # Near the mesh, so that volumes of one far away lose no digits.
         self._origin = surface.vertices[surface.corner_vertex[:1]].astype(np.float64).mean(axis=0)
         self._points = np.empty((3, surface.n_vertices))
         self.before, self.volume_before = self._measure(surface.vertices)
-        self.was_folded = self._folded(self.before, self._all)
+        self.was_folded = self._folded(self.before)
         self.was_degenerate = self._degenerate(self.before)
         self.areas, self.volume = self.before, self.volume_before
         self.is_folded, self.is_degenerate = self.was_folded, self.was_degenerate
@@ -87,9 +86,9 @@ class FaceWatch:
     def look(self, vertices: NDArray[np.floating]) -> None:
         """Look at all faces at new positions, shape (N, 3)."""
         self.areas, self.volume = self._measure(vertices)
-        self.is_folded = self._folded(self.areas, self._all)
+        self.is_folded = self._folded(self.areas)
         self.is_degenerate = self._degenerate(self.areas)
-        self._is_over = self._over(self._all)
+        self._is_over = self._over()
 
     def volume_at(self, vertices: NDArray[np.floating]) -> float:
         """Return the volume at new positions, shape (N, 3). Look at all faces afterwards."""
@@ -147,31 +146,50 @@ class FaceWatch:
         """Return which vector areas are next to nothing, shape (n,), bool."""
         return dots(areas, areas) <= DEGENERATE * DEGENERATE
 
-    def _over(self, faces: NDArray[np.intp]) -> NDArray[np.bool_]:
-        """Return which of some faces have turned over, shape (n,), bool."""
-        over = dots(self.areas[:, faces], self.before[:, faces]) < 0.0
+    def _over(self, faces: NDArray[np.intp] | None = None) -> NDArray[np.bool_]:
+        """Return which of some faces, by default of all, have turned over, shape (n,), bool."""
+        if faces is None:
+            over = dots(self.areas, self.before) < 0.0
+        else:
+            over = dots(self.areas[:, faces], self.before[:, faces]) < 0.0
         some = np.flatnonzero(over)
         if len(some) and self.carrier.connectivity.is_oriented:
-            turned = faces[some]
+            turned = some if faces is None else faces[some]
             around = self._around(self.before, turned)
             over[some] = dots(self.areas[:, turned], around) < 0.0
             over[some] &= dots(self.before[:, turned], around) >= 0.0
         return over
 
-    def _folded(self, areas: NDArray[np.float64], faces: NDArray[np.intp]) -> NDArray[np.bool_]:
-        """Return which of some faces are folded, shape (n,), bool."""
+    def _folded(self, areas: NDArray[np.float64], faces: NDArray[np.intp] | None = None) -> NDArray[np.bool_]:
+        """Return which of some faces, by default of all, are folded, shape (n,), bool."""
+        n_faces = areas.shape[1] if faces is None else len(faces)
         if not self.carrier.connectivity.is_oriented:
-            return np.zeros(len(faces), bool)
+            return np.zeros(n_faces, bool)
+        size = self.carrier.topology.common_face_size()
 
         def kernel(start: int, stop: int) -> NDArray[np.bool_]:
-            return self._disagrees(areas, faces[start:stop])
+            if faces is None and size:
+                return self._neighbors_disagree(areas, start, stop, size)
+            return self._disagrees(areas, np.arange(start, stop) if faces is None else faces[start:stop])
 
-        parts = self._blocks.run(kernel, len(faces))
+        parts = self._blocks.run(kernel, n_faces)
         folded = np.concatenate(parts) if parts else np.zeros(0, bool)
         some = np.flatnonzero(folded)
         if len(some):
-            folded[some] = dots(areas[:, faces[some]], self._around(areas, faces[some])) < 0.0
+            wanted = some if faces is None else faces[some]
+            folded[some] = dots(areas[:, wanted], self._around(areas, wanted)) < 0.0
         return folded
+
+    def _neighbors_disagree(
+        self, areas: NDArray[np.float64], start: int, stop: int, size: int
+    ) -> NDArray[np.bool_]:
+        """Do what `_disagrees` does for the faces start to stop, all of them with `size` corners."""
+        across = self.carrier.connectivity.face_across[size * start : size * stop].reshape(-1, size)
+        own, result = areas[:, start:stop], np.zeros(stop - start, bool)
+        for corner in range(size):
+            other = np.ascontiguousarray(across[:, corner], np.intp)
+            result |= (dots(own, areas.take(other, axis=1, mode="clip")) < 0.0) & (other >= 0)
+        return result
 
     def _disagrees(self, areas: NDArray[np.float64], faces: NDArray[np.intp]) -> NDArray[np.bool_]:
         """Return which of some faces are at more than a right angle to one across an edge, shape (n,)."""
@@ -195,7 +213,7 @@ class FaceWatch:
         number[vertices] = np.arange(len(vertices), dtype=np.int32)
         place = number[topology.corner_vertex]
         near = np.flatnonzero(place >= 0)
-        face = np.searchsorted(topology.face_offset, near, side="right") - 1
+        face = face_of(topology, near)
         own = np.repeat(np.arange(len(faces)), counts)
         sums = [np.bincount(place[near], row[face], len(vertices)) for row in areas]
         return np.stack([np.bincount(own, row[number[wanted]], len(faces)) for row in sums])

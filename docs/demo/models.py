@@ -29,8 +29,8 @@ def make_carved_monkey(name: str) -> bpy.types.Object:
     mesh = obj.data
     positions = np.array([vertex.co for vertex in mesh.vertices])
     normals = np.array([vertex.normal for vertex in mesh.vertices])
-    wave = np.sin(26.0 * positions[:, 2] + 4.0 * np.sin(5.0 * positions[:, 0]))
-    positions += (0.012 * np.tanh(2.0 * wave))[:, None] * normals
+    wave = np.sin(64.0 * positions[:, 2] + 6.0 * np.sin(5.0 * positions[:, 0]))
+    positions += (0.007 * np.tanh(2.0 * wave))[:, None] * normals
     mesh.attributes["position"].data.foreach_set("vector", positions.astype(np.float32).reshape(-1))
     mesh.update()
     return obj
@@ -74,7 +74,7 @@ def bracket(n: int = 56) -> SurfaceMesh:
 
 
 def bone(resolution: int = 72, noise: float = 0.12, seed: int = 0) -> SurfaceMesh:
-    """Return the surface of a bone in a noisy scan of voxels, such as a CT: triangles with the steps of voxels."""
+    """Return the surface of a bone in a noisy scan of voxels, such as a CT: triangles with steps."""
     axis = np.linspace(-1.45, 1.45, resolution)
     x, y, z = np.meshgrid(axis, axis, axis, indexing="ij")
     rng = np.random.default_rng(seed)
@@ -99,7 +99,7 @@ def bone(resolution: int = 72, noise: float = 0.12, seed: int = 0) -> SurfaceMes
 
 
 def surface_net(volume: np.ndarray, origin: float, step: float) -> SurfaceMesh:
-    """Return where a volume, shape (n, n, n), is zero: a vertex in each cell of voxels that the surface crosses."""
+    """Return where a volume, shape (n, n, n), is zero: a vertex in each cell that the surface crosses."""
     n = len(volume)
     inside = volume > 0
     total = np.zeros((n - 1, n - 1, n - 1, 3))

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 
-"""Render the pictures of the page *Which preset for my mesh*: models made in code, cleaned by several presets.
+"""Render the pictures of the page *Which preset for my mesh*: models made in code, several presets each.
 
 Run it with the Python of a bpy environment; it reads no file, writes a picture for each kind of mesh to
 `docs/images`, and prints what stands in the tables of the page.
@@ -30,7 +30,7 @@ BONE = (View((0.0, 0.0, 0.0), 2.9, 260), View((0.25, -0.3, 0.85), 1.1, 230))
 
 
 class Kind(NamedTuple):
-    """A kind of mesh: its picture, the noise in edge lengths (0: it is noisy already), and the presets to compare."""
+    """A kind of mesh: its picture, its noise in edge lengths (0: noisy already), and presets to compare."""
 
     name: str
     sigma: float

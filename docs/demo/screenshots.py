@@ -24,7 +24,7 @@ from blender_window.session import Session  # noqa: E402
 from blender_window.sidebar import press, start_fresh  # noqa: E402
 
 IMAGES = ROOT / "docs" / "images"
-SIZES = {1: (1180, 760), 2: (1920, 1240)}
+SIZES = {1: (1180, 920), 2: (2080, 1780)}
 PATIENCE = 300.0
 MOVED = "positions('Monkey').tobytes() != before"
 
@@ -60,7 +60,7 @@ def denoise(session: Session, preset: str = "AUTO") -> None:
 def show_heat(session: Session) -> None:
     """Denoise, and color by displacement."""
     denoise(session)
-    press(session, "object.framelet_heat_map", seconds=1.0)
+    press(session, "object.framelet_heat_map", seconds=1.0, across=0.25)
 
 
 def show_band(session: Session) -> None:

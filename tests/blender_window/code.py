@@ -9,7 +9,7 @@ interface = next(module for name, module in sys.modules.items() if name.endswith
 interface.unregister()
 for panel in bpy.types.Panel.__subclasses__():
     if panel.__name__.startswith("VIEW3D_PT_framelet_"):
-        options = vars(panel).get("options_at_first", set(panel.bl_options) if hasattr(panel, "bl_options") else set())
+        options = vars(panel).get("options_at_first", set(getattr(panel, "bl_options", ())))
         panel.options_at_first = options
         panel.bl_options = options - {"DEFAULT_CLOSED"} if panel.__name__ in unfolded else options
 interface.register()
@@ -75,8 +75,8 @@ with override():
     space.region_3d.view_perspective = "PERSP"
     bpy.ops.view3d.view_orbit(angle=0.3, type="ORBITRIGHT")
     bpy.ops.view3d.view_selected()
-    space.region_3d.view_distance *= 0.75
-    space.region_3d.view_location.x += 0.35
+    space.region_3d.view_distance *= 1.12
+    space.region_3d.view_location.x += 0.3
 remember("Made")
 """
 """Blender's monkey with noise, seen from the front, left of the sidebar."""

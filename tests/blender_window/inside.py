@@ -5,8 +5,9 @@
 
     blender --python inside.py -- FOLDER
 
-A request is a file `FOLDER/<number>.py`. What its code leaves in `result` is written to `<number>.json`, or the
-traceback of an error. A generator in `result` is run to its end, step by step; what it returns is the answer.
+A request is a file `FOLDER/<number>.py`. What its code leaves in `result` is written to `<number>.json`, or
+the traceback of an error. A generator in `result` is run to its end, step by step; what it returns is the
+answer.
 """
 
 import json

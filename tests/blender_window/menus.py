@@ -15,8 +15,14 @@ STEP = 9
 
 
 SWEEP = """
-def sweep_menu(left, heights, name):
-    seen = []
+def as_number(text):
+    try:
+        return float(text)
+    except ValueError:
+        return None
+
+def sweep_copies(left, heights, wanted):
+    seen, last = [], None
     for height in heights:
         bpy.context.window_manager.clipboard = ""
         simulate("MOUSEMOVE", "NOTHING", (left, height))
@@ -27,38 +33,52 @@ def sweep_menu(left, heights, name):
         simulate("C", "RELEASE", (left, height), ctrl=True)
         yield
         copied = bpy.context.window_manager.clipboard
-        found = copied.partition("(")[0].removeprefix("bpy.ops.") if copied.startswith("bpy.ops.") else ""
-        if found == name:
-            return height, seen
+        found = copied.partition("(")[0].removeprefix("bpy.ops.") if copied.startswith("bpy.ops.") else copied
+        number = as_number(found)
+        if found == wanted or (number is not None and wanted == round(number, 4)):
+            # The first entry is active before the mouse is over it: the last place is surely within.
+            last = height
+            continue
+        if last is not None:
+            break
         if found and found not in seen:
             seen.append(found)
-    return None, seen
+    return last, seen
 
-result = sweep_menu(left, heights, name)
+result = sweep_copies(left, heights, wanted)
 """
 
 
-def find_entry(session: Session, name: str, before: np.ndarray) -> tuple[int, int]:
-    """Return the place of an entry of the open menu, looked for from its top.
+def find_copied(
+    session: Session, wanted: str | float, box: tuple[int, int, int, int], across: float = 0.5
+) -> tuple[int, int]:
+    """Return the place of an entry or a field of what is open in a box, looked for from its top.
 
     Parameters
     ----------
     session : Session
-        Where a menu is open.
-    name : str
-        As in `object.framelet_denoise`.
-    before : ndarray, shape (height, width, 3)
-        What was on the screen before the menu was opened: the menu is where that has changed.
+        Where a menu or another panel is open.
+    wanted : str or float
+        An operator, as in `object.framelet_denoise`, or the value of a field.
+    box : (int, int, int, int)
+        Left, bottom, width and height in pixels.
+    across : float
+        Where to look, from the left (0) to the right (1).
 
     Raises
     ------
     BlenderFailed
         If it is not there.
     """
-    left, bottom, width, height = changed_box(before, session.picture())
-    heights = list(range(bottom + height, bottom, -int(STEP * session.scale)))
-    place = left + width // 2
-    found, seen = session.run(SWEEP, left=place, heights=heights, name=name)
+    left, bottom, width, height = box
+    place = left + int(across * width)
+    heights = list(range(bottom + height - 3, bottom, -int(STEP * session.scale)))
+    found, seen = session.run(SWEEP, left=place, heights=heights, wanted=wanted)
     if found is None:
-        raise BlenderFailed(f"{name} is not in the menu, which has {', '.join(seen)}.")
+        raise BlenderFailed(f"{wanted} is not in the box, which has {', '.join(seen)}.")
     return place, found
+
+
+def find_entry(session: Session, name: str, before: np.ndarray, across: float = 0.5) -> tuple[int, int]:
+    """Return the place of an entry of the menu that was opened since a picture of the screen was taken."""
+    return find_copied(session, name, changed_box(before, session.picture()), across)

@@ -3,17 +3,20 @@
 
 """Adjusting the last operation, in its panel and by F9."""
 
+from blender_window.menus import find_copied
 from blender_window.pixels import changed
-from blender_window.sidebar import find, press, type_into
+from blender_window.sidebar import press, type_into
 
 
 def test_adjusting_runs_again_from_the_original(ball):
+    ball.run("bpy.context.scene.framelet.strength = 0.875; region('UI').tag_redraw()")
+    ball.settle()
     noisy = ball.run("result = digest('Ball')")
     press(ball, "object.framelet_denoise")
     ball.wait_for(f"digest('Ball') != {noisy!r}")
     ball.settle(1.0)
     ball.click(ball.middle("HUD"), seconds=1.0)
-    place = find(ball, "strength", "HUD", across=0.7)
+    place = find_copied(ball, 0.875, ball.box("HUD"), across=0.7)
     type_into(ball, place, "0")
     # Strength 0 changes nothing, whatever was done before.
     ball.wait_for(f"digest('Ball') == {noisy!r}")

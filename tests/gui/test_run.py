@@ -51,7 +51,7 @@ def test_cancel_leaves_the_mesh_bit_for_bit(long_run, button):
 
 def test_cancel_button_in_the_sidebar(long_run):
     session, noisy = long_run
-    session.click(find(session, "object.framelet_cancel"))
+    session.click(find(session, "object.framelet_cancel", across=0.83))
     session.wait_for("not bpy.ops.object.framelet_cancel.poll()", patience=5.0)
     assert session.run(NOISY) == noisy
 
