@@ -30,7 +30,7 @@ def torus(make_object, rng):
 
 def write_and_remember(obj, surface, vertices):
     mesh_bridge.write_vertices(obj, surface, vertices)
-    run_memory.remember(obj, surface, {})
+    run_memory.remember(obj, surface, vertices, {})
 
 
 def shown():
