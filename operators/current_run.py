@@ -51,11 +51,11 @@ def drop_current(change: str) -> None:
         run.drop(change)
 
 
-def touch_current() -> None:
-    """Have the run that is going on, if there is one, look at its meshes in detail."""
+def touch_current(touched: set[int]) -> None:
+    """Tell the run that is going on, if there is one, the session numbers of what was updated."""
     run = current_run()
     if run is not None:
-        run.touch()
+        run.touch(touched)
 
 
 def stop_current() -> None:

@@ -57,9 +57,13 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, RegionMixin, bpy.ty
             return self.execute(context)
         if not self._begin(context):
             return {"CANCELLED"}
-        self._run.start()
-        self._display = RunDisplay(context, self._run)
         self._timer = context.window_manager.event_timer_add(TICK, window=context.window)
+        self._display = RunDisplay(context, self._run)
+        try:
+            self._run.start()
+        except Exception:
+            self.cancel(context)
+            raise
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
 
@@ -93,6 +97,9 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, RegionMixin, bpy.ty
         manager.progress_begin(0.0, 1.0)
         try:
             self._run.run_here(manager.progress_update)
+        except BaseException:
+            self._run.cancel()  # or it would count as going on for ever
+            raise
         finally:
             manager.progress_end()
         return self._finish(context)

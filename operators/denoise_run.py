@@ -93,8 +93,9 @@ class DenoiseRun:
 
     def start(self) -> None:
         """Begin to compute on a thread."""
-        self.state, self._is_started = State.RUNNING, True
+        self.state = State.RUNNING
         self._worker.start()
+        self._is_started = True
 
     def run_here(self, progress: Callable[[float], None] | None = None) -> None:
         """Compute on the calling thread, and call `progress(fraction)` meanwhile."""
@@ -107,9 +108,13 @@ class DenoiseRun:
     def _progress(self, fraction: float) -> None:
         """Do nothing with the progress; the thread's is read from `fraction`."""
 
-    def touch(self) -> None:
-        """Note that a mesh may have been edited, so that the next tick looks in detail."""
-        self._is_touched = True
+    def touch(self, touched: set[int]) -> None:
+        """Note the session numbers of objects and meshes that may have been edited.
+
+        If they are those of the run, the next tick looks in detail.
+        """
+        if any(not touched.isdisjoint((mark.object_uid, mark.mesh_uid)) for mark, _ in self._jobs):
+            self._is_touched = True
 
     def tick(self) -> State:
         """Look whether the run is done, and whether its objects are still what was read. Call it often."""

@@ -8,7 +8,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from . import current_preview, kept_original
-from .current_run import drop_current, stop_current, touch_current
+from .current_run import current_run, drop_current, stop_current, touch_current
 from .preparations import forget_preparations
 from .run_memory import forget_runs
 
@@ -59,12 +59,14 @@ def _after_save(*_: object) -> None:
 
 @persistent
 def _after_update(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
-    """Look in detail after an edit of a mesh."""
-    if depsgraph.id_type_updated("MESH"):
-        touch_current()
-        session = current_preview.current_preview()
-        if session is not None:
-            session.touch()
+    """Have a run or a preview look in detail at meshes that may have been edited."""
+    session = current_preview.current_preview()
+    if (current_run() is None and session is None) or not depsgraph.id_type_updated("MESH"):
+        return
+    touched = {update.id.original.session_uid for update in depsgraph.updates if update.is_updated_geometry}
+    touch_current(touched)
+    if session is not None:
+        session.touch(touched)
 
 
 _HANDLERS = {

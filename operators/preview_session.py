@@ -62,7 +62,7 @@ class PreviewSession:
         self._shown = self._original
         self._wanted: DenoiseJob | None = None
         self._outcome: tuple[DenoiseJob, DenoiseOutcome] | None = None
-        self._is_touched = self._is_suspended = False
+        self._is_touched = self._is_any_touched = self._is_suspended = False
         self._is_allowed = True
         self._drafts = StrengthDrafts()
         kept_original.keep(obj.data, self._original)
@@ -87,9 +87,11 @@ class PreviewSession:
         """Return the object; None if it is gone."""
         return find_object(self.mark)
 
-    def touch(self) -> None:
-        """Note that a mesh may have been edited, so that the next tick looks at its positions."""
-        self._is_touched = True
+    def touch(self, touched: set[int]) -> None:
+        """Note the session numbers of objects and meshes that may have been edited, for the next tick."""
+        self._is_any_touched = True
+        if not touched.isdisjoint((self.mark.object_uid, self.mark.mesh_uid)):
+            self._is_touched = True
 
     def tick(self, settings: DenoiseSettings, options: RegionOptions) -> bool:
         """Ask for what the settings give, and show what has been computed. Call it often.
@@ -112,6 +114,9 @@ class PreviewSession:
         if change is not None:
             self.end(f"{change}, so that the preview ended.")
             return False
+        if self._is_any_touched:
+            self._is_any_touched = False
+            kept_original.put_all_back(self.mark.mesh_uid)  # copies of what is shown
         if self._is_touched:
             self._is_touched = False
             if not self._keeps_showing():

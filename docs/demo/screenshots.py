@@ -17,6 +17,7 @@ from typing import NamedTuple
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests"))
 
+import numpy as np  # noqa: E402
 from blender_window.code import MONKEY  # noqa: E402
 from blender_window.pixels import write_png  # noqa: E402
 from blender_window.programs import NoWindow, find_programs  # noqa: E402
@@ -24,8 +25,11 @@ from blender_window.session import Session  # noqa: E402
 from blender_window.sidebar import press, start_fresh  # noqa: E402
 
 IMAGES = ROOT / "docs" / "images"
-SIZES = {1: (1180, 760), 2: (1920, 1240)}
+SIZES = {1: (1180, 920), 2: (2080, 1780)}
 PATIENCE = 300.0
+TEXT = 130
+"""What is brighter than this in a panel is text; the viewport behind the sidebar is darker."""
+
 MOVED = "positions('Monkey').tobytes() != before"
 
 
@@ -60,7 +64,7 @@ def denoise(session: Session, preset: str = "AUTO") -> None:
 def show_heat(session: Session) -> None:
     """Denoise, and color by displacement."""
     denoise(session)
-    press(session, "object.framelet_heat_map", seconds=1.0)
+    press(session, "object.framelet_heat_map", seconds=1.0, across=0.25)
 
 
 def show_band(session: Session) -> None:
@@ -147,19 +151,22 @@ def take(session: Session, shot: Shot) -> None:
         session.settle(0.5)
 
 
-def cut(session: Session, part: str):
+def cut(session: Session, part: str) -> np.ndarray:
     """Return the viewport with its sidebar, or the used part of the sidebar."""
     code = "r = view3d() if part == 'AREA' else region(part)\nresult = [r.x, r.y, r.width, r.height]"
     x, y, width, height = session.run(code, part=part)
     picture = session.picture()
     top = session.size[1] - y - height
     picture = picture[top : top + height, x : x + width]
-    if part != "UI":
-        return picture
-    # Below its last panel the sidebar is transparent, without the panel's flat background.
-    back = picture[:, 12 * int(session.scale)]
-    is_panel = (abs(back.astype(int) - back[20 * int(session.scale)]).max(axis=1) < 3).nonzero()[0]
-    return picture[: min(int(is_panel[-1]) + 8, height)]
+    return trimmed(picture, session.scale) if part == "UI" else picture
+
+
+def trimmed(picture: np.ndarray, scale: float) -> np.ndarray:
+    """Return the sidebar without its tabs, down to its last line of text."""
+    left, right = int(8 * scale), picture.shape[1] - int(30 * scale)
+    is_text = (picture[:, left + int(20 * scale) : right].min(axis=2) > TEXT).any(axis=1)
+    bottom = int(np.flatnonzero(is_text)[-1]) + int(14 * scale)
+    return picture[:bottom, left:right]
 
 
 if __name__ == "__main__":

@@ -64,11 +64,21 @@ def test_there_are_ten_recipes_with_a_block_each():
     assert [number for number, blocks in RECIPES.items() if len(blocks) != 1] == []
 
 
-@pytest.mark.parametrize("number", [1, 2, 3, 6])
+@pytest.mark.parametrize("number", [1, 3, 6])
 def test_recipes_that_clean_the_active_mesh(ball, number):
     before = roughness(positions(ball))
     run(number)
     assert roughness(positions(ball)) < 0.5 * before
+
+
+def test_preset_as_a_shape_key(ball):
+    before = positions(ball)
+    key = run(2)["key"]
+    assert np.array_equal(positions(ball), before)
+    points = np.empty(3 * len(before), np.float32)
+    key.points.foreach_get("co", points)
+    assert roughness(points.reshape(-1, 3)) < 0.5 * roughness(before)
+    assert ball.data.shape_keys.animation_data.action is not None
 
 
 def test_part_of_the_mesh(ball):
@@ -78,6 +88,11 @@ def test_part_of_the_mesh(ball):
     is_upper = before[:, 2] > 0.0
     assert np.array_equal(after[~is_upper], before[~is_upper])
     assert (after[is_upper] != before[is_upper]).any(axis=1).mean() > 0.9
+
+
+def test_colors_of_a_run(ball):
+    run(6)
+    assert len(ball.data.color_attributes.active_color.data) == len(ball.data.vertices)
 
 
 def test_folder_of_scans(ball, tmp_path):

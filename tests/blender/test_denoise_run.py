@@ -236,6 +236,32 @@ def test_an_edit_is_noticed_before_the_run_is_done(gate):
     assert run.tick() is State.FAILED and "was edited" in run.reason
 
 
+def test_edits_of_other_meshes_are_not_looked_at(gate, monkeypatch):
+    obj, other = monkey(), monkey("Other")
+    run = start(obj)
+    monkeypatch.setattr(mesh_bridge, "read_surface", lambda _: pytest.fail("it was read in detail"))
+    other.data.vertices[5].co.z += 0.25
+    other.data.update()
+    bpy.context.view_layer.update()
+    assert run.tick() is State.RUNNING
+
+
+def test_an_interrupted_script_leaves_no_run(monkeypatch):
+    obj = monkey()
+    before = read(obj)
+
+    def compute(*_):
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patched:
+        patched.setattr(denoise_run, "compute", compute)
+        with pytest.raises((KeyboardInterrupt, RuntimeError)):
+            bpy.ops.object.framelet_denoise()
+    assert current_run.current_run() is None
+    assert read(obj).tobytes() == before.tobytes()
+    assert bpy.ops.object.framelet_denoise(preset="POSITIONS") == {"FINISHED"}
+
+
 def test_renaming_and_moving_the_object_are_no_matter(gate):
     obj = monkey()
     run = start(obj)

@@ -346,11 +346,25 @@ def test_an_edit_of_all_vertices_keeps_what_is_shown(settings):
     shown = points(obj.data)
     bpy.ops.object.transform_apply(location=False, rotation=False)
     bpy.context.view_layer.update()
-    current_preview.current_preview().touch()
     assert not current_preview.tick_preview()
     assert "it keeps what the preview showed" in current_preview.preview_message()
     assert np.allclose(points(obj.data), 0.1 * shown, rtol=1e-5)
     assert_clean(obj.data)
+
+
+def test_copies_of_the_object_have_the_original(settings):
+    obj = monkey()
+    before = points(obj.data)
+    session = turn_on()
+    settle(session)
+    shown = points(obj.data)
+    bpy.ops.object.duplicate()
+    copy = bpy.context.object
+    assert copy != obj and same(points(copy.data), shown)
+    bpy.context.view_layer.update()
+    assert current_preview.tick_preview()
+    assert same(points(copy.data), before) and same(points(obj.data), shown)
+    assert_clean(copy.data)
 
 
 def test_joined_vertices_are_not_pulled_to_the_origin(settings):

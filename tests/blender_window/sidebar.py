@@ -116,21 +116,14 @@ def find(session: Session, name: str, kind: str = "UI", across: float = 0.6) -> 
     return left, found - step // 3
 
 
-def press(session: Session, name: str, seconds: float = 0.3) -> None:
+def press(session: Session, name: str, seconds: float = 0.3, across: float = 0.6) -> None:
     """Click the button of an operator or property."""
-    session.click(find(session, name), seconds=seconds)
+    session.click(find(session, name, across=across), seconds=seconds)
 
 
 def type_into(session: Session, place: tuple[int, int], text: str) -> None:
-    """Double-click a number and type another one."""
-    session.events(
-        ("MOUSEMOVE", "NOTHING", place, {}),
-        ("LEFTMOUSE", "PRESS", place, {}),
-        ("LEFTMOUSE", "RELEASE", place, {}),
-        ("LEFTMOUSE", "DOUBLE_CLICK", place, {}),
-        ("LEFTMOUSE", "RELEASE", place, {}),
-    )
-    session.settle()
+    """Click a number and type another one."""
+    session.click(place)
     session.key("A", ctrl=True)
     session.type_text(text)
     session.key("RET", 0.5)

@@ -9,10 +9,10 @@ from blender_window.pixels import changed
 CHOOSE = """
 view = bpy.context.preferences.view
 names = [item.identifier for item in view.bl_rna.properties["language"].enum_items]
-view.language = next(name for name in names if name.partition("_")[0] == language)
+view.language = next(name for name in names if language in (name, name.partition("_")[0]))
 for name in ("use_translate_interface", "use_translate_tooltips", "use_translate_reports"):
     if hasattr(view, name):
-        setattr(view, name, language != "en")
+        setattr(view, name, language != "en_US")
 for area in window().screen.areas:
     for each in area.regions:
         each.tag_redraw()
@@ -47,13 +47,13 @@ def german(ball):
     ball.run("import sys\n" + CHOOSE, language="de")
     ball.settle(1.0)
     yield ball
-    ball.run(CHOOSE, language="en")
+    ball.run(CHOOSE, language="en_US")
     ball.settle(0.5)
 
 
 def test_the_sidebar_speaks_german(german):
     shown = german.part("UI")
-    german.run(CHOOSE, language="en")
+    german.run(CHOOSE, language="en_US")
     german.settle(1.0)
     assert changed(shown, german.part("UI")) > 0.01
 

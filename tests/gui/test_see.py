@@ -35,7 +35,7 @@ def denoised(desk):
 
 def test_heat_map_colors_the_mesh_and_draws_a_legend(denoised):
     plain = denoised.part()
-    press(denoised, "object.framelet_heat_map", seconds=1.0)
+    press(denoised, "object.framelet_heat_map", seconds=1.0, across=0.25)
     denoised.move((5, 5))
     denoised.settle(0.5)
     assert saturated(denoised.part()) > saturated(plain) + 0.05
@@ -55,9 +55,9 @@ def test_heat_map_colors_the_mesh_and_draws_a_legend(denoised):
 
 def test_heat_map_goes_away(denoised):
     plain = denoised.part()
-    press(denoised, "object.framelet_heat_map", seconds=1.0)
+    press(denoised, "object.framelet_heat_map", seconds=1.0, across=0.25)
     assert saturated(denoised.part()) > saturated(plain) + 0.05
-    press(denoised, "object.framelet_hide_colors", seconds=1.0)
+    press(denoised, "object.framelet_hide_colors", seconds=1.0, across=0.25)
     denoised.move((5, 5))
     denoised.settle(0.5)
     assert changed(plain, denoised.part()) < 0.02

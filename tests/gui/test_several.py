@@ -60,4 +60,6 @@ def test_presets_of_ones_own(ball):
     opened = ball.picture()
     assert changed(before, opened) > 0.005
     ball.click(find_entry(ball, "object.framelet_preset_add", before, across=0.91), seconds=0.7)
+    # It asks for a name; Enter accepts the one that it offers.
+    ball.key("RET", 0.7)
     assert len(ball.run(SAVED)) == 1

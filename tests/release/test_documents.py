@@ -17,9 +17,15 @@ ROW = re.compile(r"^\| ([^|]+) \|", re.MULTILINE)
 VARIABLE = re.compile(
     r"‘[^’]*’|; |: |\.\.\.|\([^)]*\)|[\d.,]+ (?:GB|MB)|\d[\d,]*|\bfile\.blend\b|\bLINEAR_SPLINE\b"
 )
+EMPTY_TABLE = re.compile(r"<!-- (\w+) -->\s*<!-- end of \1 -->")
 NOT_QUOTED = {"Message", "---"}
 LARGEST_PICTURE = 350_000
 SCREENSHOTS = ("panel", "window_heat_map", "window_bands", "window_cancel")
+
+
+def is_unmeasured(document):
+    """Tell whether the tables of a benchmark wait for its first run, which also draws its picture."""
+    return EMPTY_TABLE.search(document.read_text(encoding="utf-8")) is not None
 
 
 def targets(document):
@@ -39,7 +45,7 @@ def test_links_lead_somewhere(document):
     for target in targets(document):
         name, _, place = target.partition("#")
         path = (document.parent / name).resolve() if name else document
-        assert path.exists(), target
+        assert path.exists() or (path.suffix == ".png" and is_unmeasured(document)), target
         if place and path.suffix == ".md":
             headings = HEADING.findall(path.read_text(encoding="utf-8"))
             assert place in {anchor(heading) for heading in headings}, target
