@@ -61,6 +61,12 @@ def denoise(session: Session, preset: str = "AUTO") -> None:
     session.settle(1.0)
 
 
+def denoise_and_scroll(session: Session) -> None:
+    """Denoise, and scroll the sidebar to its end."""
+    denoise(session)
+    session.events(*[("WHEELDOWNMOUSE", "PRESS", session.middle("UI"), {})] * 40)
+
+
 def show_heat(session: Session) -> None:
     """Denoise, and color by displacement."""
     denoise(session)
@@ -107,7 +113,7 @@ SHOTS = (
     Shot("panel_region", ("region", "output"), show_group, "UI"),
     Shot("panel_equalizer", ("equalizer",), rest, "UI"),
     Shot("panel_see", ("see",), show_heat, "UI"),
-    Shot("panel_last_run", ("last_run", "noise"), denoise, "UI"),
+    Shot("panel_last_run", ("last_run", "noise"), denoise_and_scroll, "UI"),
     Shot("panel_try_it", ("try_it",), rest, "UI"),
 )
 
