@@ -25,7 +25,7 @@ from blender_window.session import Session  # noqa: E402
 from blender_window.sidebar import press, start_fresh  # noqa: E402
 
 IMAGES = ROOT / "docs" / "images"
-SIZES = {1: (1180, 920), 2: (2080, 1780)}
+SIZES = {1: (1180, 920), 2: (2080, 1840)}
 PATIENCE = 300.0
 TEXT = 130
 """What is brighter than this in a panel is text; the viewport behind the sidebar is darker."""
@@ -45,6 +45,10 @@ class Shot(NamedTuple):
     part: str = "AREA"
     scales: tuple[int, ...] = (1,)
     subdivisions: int = 2
+
+    def file(self, scale: float) -> str:
+        """Return the name of the file, without its ending."""
+        return self.name if scale == 1 else f"{self.name}_{scale:g}x"
 
 
 def rest(session: Session) -> None:
@@ -126,9 +130,9 @@ def main() -> int:
         print(f"No screenshots: this {reason}.")
         return 1
     extension = Path(os.environ.get("FRAMELET_ZIP") or next((ROOT / "build").glob("framelet-*.zip")))
-    wanted = sys.argv[1:] or [shot.name for shot in SHOTS]
+    wanted = sys.argv[1:] or [shot.file(scale) for shot in SHOTS for scale in shot.scales]
     for scale, size in SIZES.items():
-        shots = [shot for shot in SHOTS if scale in shot.scales and shot.name in wanted]
+        shots = [shot for shot in SHOTS if scale in shot.scales and shot.file(scale) in wanted]
         if not shots:
             continue
         session = Session(programs, extension, size, scale, overlap=True)
@@ -149,7 +153,7 @@ def take(session: Session, shot: Shot) -> None:
     session.move((5, 5))
     session.settle(2.0)
     picture = session.picture() if shot.part == "WINDOW" else cut(session, shot.part)
-    name = shot.name if session.scale == 1 else f"{shot.name}_2x"
+    name = shot.file(session.scale)
     write_png(IMAGES / f"{name}.png", picture)
     print(f"Wrote {name}.png to {IMAGES}.", flush=True)
     if session.run("result = hasattr(bpy.types, 'OBJECT_OT_framelet_cancel')"):
