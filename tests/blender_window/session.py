@@ -183,7 +183,7 @@ class Session:
         return value
 
     def until(self, check: Callable[[], bool], patience: float = 20.0) -> bool:
-        """Look until a check is true, and return whether it became true: the screen may lag behind Blender."""
+        """Look until a check is true, and return whether it became so: the screen may lag behind Blender."""
         end = time.monotonic() + patience
         while not (is_true := bool(check())) and time.monotonic() < end:
             self.settle(0.2)
