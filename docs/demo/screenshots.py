@@ -17,6 +17,7 @@ from typing import NamedTuple
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests"))
 
+import numpy as np  # noqa: E402
 from blender_window.code import MONKEY  # noqa: E402
 from blender_window.pixels import write_png  # noqa: E402
 from blender_window.programs import NoWindow, find_programs  # noqa: E402
@@ -24,8 +25,11 @@ from blender_window.session import Session  # noqa: E402
 from blender_window.sidebar import press, start_fresh  # noqa: E402
 
 IMAGES = ROOT / "docs" / "images"
-SIZES = {1: (1180, 920), 2: (2080, 1780)}
+SIZES = {1: (1180, 920), 2: (2080, 1840)}
 PATIENCE = 300.0
+TEXT = 130
+"""What is brighter than this in a panel is text; the viewport behind the sidebar is darker."""
+
 MOVED = "positions('Monkey').tobytes() != before"
 
 
@@ -42,6 +46,10 @@ class Shot(NamedTuple):
     scales: tuple[int, ...] = (1,)
     subdivisions: int = 2
 
+    def file(self, scale: float) -> str:
+        """Return the name of the file, without its ending."""
+        return self.name if scale == 1 else f"{self.name}_{scale:g}x"
+
 
 def rest(session: Session) -> None:
     """Do nothing."""
@@ -55,6 +63,12 @@ def denoise(session: Session, preset: str = "AUTO") -> None:
     press(session, "object.framelet_denoise")
     session.wait_for(MOVED, PATIENCE)
     session.settle(1.0)
+
+
+def denoise_and_scroll(session: Session) -> None:
+    """Denoise, and scroll the sidebar to its end."""
+    denoise(session)
+    session.events(*[("WHEELDOWNMOUSE", "PRESS", session.middle("UI"), {})] * 40)
 
 
 def show_heat(session: Session) -> None:
@@ -103,7 +117,7 @@ SHOTS = (
     Shot("panel_region", ("region", "output"), show_group, "UI"),
     Shot("panel_equalizer", ("equalizer",), rest, "UI"),
     Shot("panel_see", ("see",), show_heat, "UI"),
-    Shot("panel_last_run", ("last_run", "noise"), denoise, "UI"),
+    Shot("panel_last_run", ("last_run", "noise"), denoise_and_scroll, "UI"),
     Shot("panel_try_it", ("try_it",), rest, "UI"),
 )
 
@@ -116,9 +130,9 @@ def main() -> int:
         print(f"No screenshots: this {reason}.")
         return 1
     extension = Path(os.environ.get("FRAMELET_ZIP") or next((ROOT / "build").glob("framelet-*.zip")))
-    wanted = sys.argv[1:] or [shot.name for shot in SHOTS]
+    wanted = sys.argv[1:] or [shot.file(scale) for shot in SHOTS for scale in shot.scales]
     for scale, size in SIZES.items():
-        shots = [shot for shot in SHOTS if scale in shot.scales and shot.name in wanted]
+        shots = [shot for shot in SHOTS if scale in shot.scales and shot.file(scale) in wanted]
         if not shots:
             continue
         session = Session(programs, extension, size, scale, overlap=True)
@@ -139,7 +153,7 @@ def take(session: Session, shot: Shot) -> None:
     session.move((5, 5))
     session.settle(2.0)
     picture = session.picture() if shot.part == "WINDOW" else cut(session, shot.part)
-    name = shot.name if session.scale == 1 else f"{shot.name}_2x"
+    name = shot.file(session.scale)
     write_png(IMAGES / f"{name}.png", picture)
     print(f"Wrote {name}.png to {IMAGES}.", flush=True)
     if session.run("result = hasattr(bpy.types, 'OBJECT_OT_framelet_cancel')"):
@@ -147,19 +161,22 @@ def take(session: Session, shot: Shot) -> None:
         session.settle(0.5)
 
 
-def cut(session: Session, part: str):
+def cut(session: Session, part: str) -> np.ndarray:
     """Return the viewport with its sidebar, or the used part of the sidebar."""
     code = "r = view3d() if part == 'AREA' else region(part)\nresult = [r.x, r.y, r.width, r.height]"
     x, y, width, height = session.run(code, part=part)
     picture = session.picture()
     top = session.size[1] - y - height
     picture = picture[top : top + height, x : x + width]
-    if part != "UI":
-        return picture
-    # Below its last panel the sidebar is transparent, without the panel's flat background.
-    back = picture[:, 12 * int(session.scale)]
-    is_panel = (abs(back.astype(int) - back[20 * int(session.scale)]).max(axis=1) < 3).nonzero()[0]
-    return picture[: min(int(is_panel[-1]) + 8, height)]
+    return trimmed(picture, session.scale) if part == "UI" else picture
+
+
+def trimmed(picture: np.ndarray, scale: float) -> np.ndarray:
+    """Return the sidebar without its tabs, down to its last line of text."""
+    left, right = int(8 * scale), picture.shape[1] - int(30 * scale)
+    is_text = (picture[:, left + int(20 * scale) : right].min(axis=2) > TEXT).any(axis=1)
+    bottom = int(np.flatnonzero(is_text)[-1]) + int(14 * scale)
+    return picture[:bottom, left:right]
 
 
 if __name__ == "__main__":

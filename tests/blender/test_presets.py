@@ -32,6 +32,8 @@ def preset_folder(tmp_path, monkeypatch):
         "preset_paths",
         lambda subdir: [str(path)] if (path := scripts / "presets" / subdir).is_dir() else [],
     )
+    # Blender writes the name of the last preset over the label.
+    monkeypatch.setattr(preset_panel.VIEW3D_PT_framelet_presets, "bl_label", "Framelet Presets")
     return scripts / "presets" / "framelet"
 
 

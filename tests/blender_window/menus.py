@@ -13,6 +13,12 @@ from .session import BlenderFailed, Session
 STEP = 9
 """Pixels between two places that are looked at; an entry is 20 pixels high."""
 
+SMALLEST = 40
+"""Pixels that a menu is wide and high, at least."""
+
+ROUNDS = 30
+"""How often the screen is looked at until a menu must be there."""
+
 
 SWEEP = """
 def as_number(text):
@@ -81,4 +87,16 @@ def find_copied(
 
 def find_entry(session: Session, name: str, before: np.ndarray, across: float = 0.5) -> tuple[int, int]:
     """Return the place of an entry of the menu that was opened since a picture of the screen was taken."""
-    return find_copied(session, name, changed_box(before, session.picture()), across)
+    return find_copied(session, name, opened_box(session, before), across)
+
+
+def opened_box(session: Session, before: np.ndarray) -> tuple[int, int, int, int]:
+    """Wait until something has been opened and drawn since a picture was taken, and return its box."""
+    last = (0, 0, 0, 0)
+    for _ in range(ROUNDS):
+        session.settle(0.3)
+        box = changed_box(before, session.picture())
+        if box == last and min(box[2:]) > SMALLEST * session.scale:
+            return box
+        last = box
+    raise BlenderFailed(f"Nothing was opened on the screen; what has changed is {last}.")

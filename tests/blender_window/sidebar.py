@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from .code import BALL, EMPTY, RESET
+from .pixels import changed
 from .session import BlenderFailed, Session
 
 SWEEP = """
@@ -53,6 +54,9 @@ region("UI").tag_redraw()
 STEP = 9
 """Pixels between two places that are looked at; a button is 20 pixels high."""
 
+SCROLL = 8
+"""Steps of the mouse wheel to what is further down."""
+
 
 def start_fresh(session: Session, unfolded: tuple[str, ...] = ()) -> None:
     """Load Blender's startup file without its objects, and open the sidebar at our tab.
@@ -87,7 +91,7 @@ def open_sidebar(session: Session) -> None:
 
 
 def find(session: Session, name: str, kind: str = "UI", across: float = 0.6) -> tuple[int, int]:
-    """Return the place of the button of an operator or property, looked for from the top.
+    """Return the place of the button of an operator or property, looked for from the top, and further down by scrolling.
 
     Parameters
     ----------
@@ -109,11 +113,18 @@ def find(session: Session, name: str, kind: str = "UI", across: float = 0.6) -> 
     step = int(STEP * session.scale)
     left = x + int(across * width)
     heights = list(range(y + height - step, y, -step))
-    found, seen = session.run(SWEEP, kind=kind, left=left, heights=heights, name=name)
-    if found is None:
-        raise BlenderFailed(f"{name} is not in the region {kind}, which has {', '.join(seen)}.")
-    # Towards the middle of the button, whose upper edge this is.
-    return left, found - step // 3
+    seen: list[str] = []
+    while True:
+        found, names = session.run(SWEEP, kind=kind, left=left, heights=heights, name=name)
+        if found is not None:
+            # Towards the middle of the button, whose upper edge this is.
+            return left, found - step // 3
+        seen += [other for other in names if other not in seen]
+        before = session.part(kind)
+        session.events(*[("WHEELDOWNMOUSE", "PRESS", (left, y + height // 2), {})] * SCROLL)
+        session.settle(0.5)
+        if changed(before, session.part(kind)) < 0.01:
+            raise BlenderFailed(f"{name} is not in the region {kind}, which has {', '.join(seen)}.")
 
 
 def press(session: Session, name: str, seconds: float = 0.3, across: float = 0.6) -> None:

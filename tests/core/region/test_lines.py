@@ -202,3 +202,11 @@ def test_a_closed_line_of_three_edges_is_no_problem(rng):
     face = mesh.corner_vertex[:3]
     edges = np.stack((face, np.roll(face, 1)), axis=1)
     assert np.isfinite(denoise(mesh, region=Region(feature_edges=edges)).vertices).all()
+
+
+def test_edges_of_a_vertex_with_itself_are_no_lines(rng):
+    mesh = noisy(triangle_torus(), rng)
+    settings = PRESETS["TRI_2"].settings
+    result = denoise(mesh, settings, region=Region(feature_edges=np.array([[3, 3], [5, 5]])))
+    assert_same_bits(result.vertices, denoise(mesh, settings).vertices)
+    assert result.report.line_vertices == 0
