@@ -182,6 +182,13 @@ class Session:
             time.sleep(0.05)
         return value
 
+    def until(self, check: Callable[[], bool], patience: float = 20.0) -> bool:
+        """Look until a check is true, and return whether it became so: the screen may lag behind Blender."""
+        end = time.monotonic() + patience
+        while not (is_true := bool(check())) and time.monotonic() < end:
+            self.settle(0.2)
+        return is_true
+
     def settle(self, seconds: float = 0.3) -> None:
         """Let Blender handle events and draw."""
         time.sleep(seconds)

@@ -91,7 +91,7 @@ def open_sidebar(session: Session) -> None:
 
 
 def find(session: Session, name: str, kind: str = "UI", across: float = 0.6) -> tuple[int, int]:
-    """Return the place of the button of an operator or property, looked for from the top, and further down by scrolling.
+    """Return the place of the button of an operator or property, for which the sidebar is scrolled down.
 
     Parameters
     ----------

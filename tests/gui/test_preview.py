@@ -44,7 +44,7 @@ def test_mesh_follows_and_comes_back(preview):
     seen = drag_lambda(session)
     assert session.run("result = bpy.context.scene.framelet.lambda_") > value
     assert len(set(seen)) >= 3
-    assert changed(view, session.part()) > 0.002
+    assert session.until(lambda: changed(view, session.part()) > 0.002)
     # While it is on the button that keeps the result stands at its right.
     session.click(find(session, TOGGLE, across=0.25))
     session.wait_for(f"digest('Ball') == {noisy!r}")

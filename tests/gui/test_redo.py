@@ -31,6 +31,6 @@ def test_f9_opens_the_settings(ball):
     ball.settle(0.5)
     before = ball.part()
     ball.key("F9", 1.0)
-    assert changed(before, ball.part()) > 0.02
+    assert ball.until(lambda: changed(before, ball.part()) > 0.02)
     ball.move((5, 5))
     ball.key("ESC")

@@ -71,7 +71,7 @@ def test_window_is_alive_while_it_runs(long_run):
     assert is_running(session)
     # The viewport followed the mouse, and was drawn meanwhile.
     assert session.run(rotation) != before
-    assert changed(view, session.part()) > 0.01
+    assert session.until(lambda: changed(view, session.part()) > 0.01)
     assert end[1] - start[1] >= 6
     # Blender got around to its timers all the time: no gap is as long as the run.
     gaps = session.run("result = [b - a for a, b in zip(ticks[n:], ticks[n + 1:])]", n=start[0])

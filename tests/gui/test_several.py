@@ -42,7 +42,7 @@ def test_edit_mode_of_two_meshes(desk):
     press(desk, "object.framelet_denoise")
     desk.wait_for("report()[0] == 2")
     desk.settle(0.5)
-    assert changed(view, desk.part()) > 0.01
+    assert desk.until(lambda: changed(view, desk.part()) > 0.01)
     estimates = "bpy.context.window_manager.framelet_estimate.objects"
     small, large = desk.run(f"result = [{estimates}[name].sigma_edges for name in ('One', 'Two')]")
     assert small < 0.15 < 0.2 < large

@@ -47,14 +47,14 @@ def test_denoise_changes_the_mesh_and_undo_brings_it_back(ball):
     press(ball, "object.framelet_denoise")
     ball.wait_for(f"digest('Ball') != {noisy!r}")
     ball.settle()
-    assert changed(view, ball.part()) > 0.01
+    assert ball.until(lambda: changed(view, ball.part()) > 0.01)
     report = ball.run("r = bpy.context.window_manager.framelet_report\nresult = [r.n_moved, r.n_objects]")
     assert report == [2562, 1]
     ball.move(ball.middle())
     ball.key("Z", ctrl=True)
     assert ball.run("result = digest('Ball')") == noisy
     ball.settle()
-    assert changed(view, ball.part()) < 0.002
+    assert ball.until(lambda: changed(view, ball.part()) < 0.002)
 
 
 def test_without_a_mesh_the_button_does_nothing(desk):
