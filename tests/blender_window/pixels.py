@@ -93,7 +93,7 @@ def changed(before: np.ndarray, after: np.ndarray, threshold: int = 12) -> float
     return float((difference > threshold).mean())
 
 
-def saturated(picture: np.ndarray, threshold: int = 60) -> float:
+def saturated(picture: np.ndarray, threshold: int = 30) -> float:
     """Return the share of pixels with a color that is far from gray."""
     return float((np.ptp(picture.astype(np.int16), axis=2) > threshold).mean())
 
