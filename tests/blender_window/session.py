@@ -121,7 +121,7 @@ class Session:
         read, write = os.pipe()
         width, height = self.size
         command = ["Xvfb", "-displayfd", str(write), "-screen", "0", f"{width}x{height}x24"]
-        command += ["-fbdir", inside, "-nolisten", "tcp", "-nocursor", "+extension", "GLX"]
+        command += ["-fbdir", inside, "-nolisten", "tcp", "-nocursor", "-terminate", "+extension", "GLX"]
         process = self._programs.start(command, environment, self.folder / "screen.log", pass_fds=(write,))
         self._processes.append(process)
         os.close(write)
