@@ -121,7 +121,7 @@ class Session:
         read, write = os.pipe()
         width, height = self.size
         command = ["Xvfb", "-displayfd", str(write), "-screen", "0", f"{width}x{height}x24"]
-        command += ["-fbdir", inside, "-nolisten", "tcp", "-nocursor", "-terminate", "+extension", "GLX"]
+        command += ["-fbdir", inside, "-nolisten", "tcp", "-nocursor", "+extension", "GLX"]
         process = self._programs.start(command, environment, self.folder / "screen.log", pass_fds=(write,))
         self._processes.append(process)
         os.close(write)
@@ -249,6 +249,18 @@ class Session:
     def picture(self) -> np.ndarray:
         """Return what is on the screen, shape (height, width, 3), rows from the top."""
         return read_screen(self.folder / "Xvfb_screen0")
+
+    def still_picture(self) -> np.ndarray:
+        """Return what is on the screen once nothing changes any more."""
+        pictures = [self.picture()]
+
+        def is_still() -> bool:
+            pictures.append(self.picture())
+            return np.array_equal(pictures[-1], pictures[-2])
+
+        self.settle(0.3)
+        self.until(is_still)
+        return pictures[-1]
 
     def box(self, kind: str = "WINDOW") -> tuple[int, int, int, int]:
         """Return left, bottom, width and height of a region of the viewport, in pixels.
