@@ -12,6 +12,7 @@ BLENDER := 4.5
 
 # Each pytest run is killed after this many seconds: a Blender that hangs must not hang us.
 TIMEOUT ?= 1200
+GUI_TIMEOUT ?= 3600
 
 # Two targets must not make the same environment at once.
 .NOTPARALLEL:
@@ -60,6 +61,21 @@ test-installed-4.5: ## Install the zip on Blender 4.5 and test it
 test-installed-5.2: ## Install the zip on Blender 5.2 and test it
 $(BLENDERS:%=test-installed-%): test-installed-%: extension
 	FRAMELET_ZIP="$(ZIP)" $(ENVIRONMENT) run bpy-$* --timeout $(TIMEOUT) -- -m pytest tests/installed
+
+.PHONY: gui
+gui: extension ## Use a real Blender window with mouse and keys, on a virtual screen (made if missing: Linux, root)
+	$(PYTHON) .ci/gui.py
+	FRAMELET_ZIP="$(ZIP)" $(ENVIRONMENT) run core --timeout $(GUI_TIMEOUT) -- -m pytest tests/gui
+
+.PHONY: screenshots
+screenshots: extension ## Take the screenshots of the documents in a real Blender window
+	$(PYTHON) .ci/gui.py
+	FRAMELET_ZIP="$(ZIP)" $(ENVIRONMENT) run core -- docs/demo/screenshots.py
+
+.PHONY: pictures
+pictures: ## Render the pictures of the documents again, half an hour
+	for script in parameters presets frames_and_bands; do \
+	  $(ENVIRONMENT) run bpy-5.2 -- docs/demo/$$script.py || exit 1; done
 
 .PHONY: quality
 quality: ## Compare with published filters, an hour or more; tables and plot go to docs

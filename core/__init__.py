@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from .frames import BANKS, FilterBank
     from .metrics import Comparison, compare
     from .noise import NoiseEstimate, add_noise, estimate_noise
+    from .region.region import Region
     from .settings import DEFAULT_PRESET, PRESETS, DenoiseSettings
     from .stencils import Stencil, make_stencil
     from .surface.connectivity import Connectivity, connect
@@ -40,6 +41,7 @@ _HOMES = {
     "PRESETS": ".settings",
     "PreparationCache": ".denoising.preparation_cache",
     "Prepared": ".denoising.prepared",
+    "Region": ".region.region",
     "Stencil": ".stencils",
     "SurfaceMesh": ".surface.surface_mesh",
     "add_noise": ".noise",
@@ -71,6 +73,7 @@ __all__ = [
     "NoiseEstimate",
     "PreparationCache",
     "Prepared",
+    "Region",
     "Stencil",
     "SurfaceMesh",
     "add_noise",

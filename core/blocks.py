@@ -10,7 +10,7 @@ same bits for any number of threads.
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from types import TracebackType
 from typing import TypeVar
@@ -18,6 +18,10 @@ from typing import TypeVar
 Result = TypeVar("Result")
 
 BLOCK_SIZE = 32768
+
+
+class Stopped(Exception):
+    """Raised between two blocks once a run is asked to stop."""
 
 
 class Blocks:
@@ -38,6 +42,7 @@ class Blocks:
         self.block_size = block_size
         self._pool: ThreadPoolExecutor | None = None
         self._owner = self  # whose threads these are
+        self._should_stop: Callable[[], bool] | None = None
 
     def __enter__(self) -> Blocks:
         if self.n_threads > 1:
@@ -50,11 +55,26 @@ class Blocks:
         if self._pool is not None:
             self._pool.shutdown(cancel_futures=True)
             self._pool = None
+        self._should_stop = None
 
     def with_threads(self, n_threads: int) -> Blocks:
         """Set the number of threads for the next time this is entered, and return this object."""
         self.n_threads = n_threads or available_cores()
         return self
+
+    def stopped_by(self, should_stop: Callable[[], bool] | None) -> Blocks:
+        """Ask a function before each block, until this is left: True raises `Stopped`. Return this object.
+
+        It is asked on the thread that `run` was called on.
+        """
+        self._should_stop = should_stop
+        return self
+
+    def check(self) -> None:
+        """Raise `Stopped` if the run is asked to stop; for long work that has no blocks."""
+        should_stop = self._owner._should_stop
+        if should_stop is not None and should_stop():
+            raise Stopped
 
     def sized(self, block_size: int) -> Blocks:
         """Return the same threads with another block size; they live and die with this object's."""
@@ -69,13 +89,25 @@ class Blocks:
         -------
         list
             The kernel's results in the order of the blocks, whichever thread was first.
+
+        Raises
+        ------
+        Stopped
+            If the function given to `stopped_by` says so. Kernels that have begun are waited for on leaving.
         """
         starts = range(0, n_items, self.block_size)
         stops = [min(start + self.block_size, n_items) for start in starts]
         pool = self._owner._pool
+        found: Iterator[Result]
         if pool is None or len(starts) < 2:
-            return [kernel(start, stop) for start, stop in zip(starts, stops, strict=True)]
-        return list(pool.map(kernel, starts, stops))
+            found = map(kernel, starts, stops)
+        else:
+            found = pool.map(kernel, starts, stops)
+        results = []
+        for _ in starts:
+            self.check()
+            results.append(next(found))
+        return results
 
 
 def available_cores() -> int:

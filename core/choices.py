@@ -23,12 +23,12 @@ METHODS = (
         "Automatic",
         "Measures the noise, tries several ways of cleaning the directions of the faces, and takes the best",
     ),
-    Choice("POSITIONS", "Positions (paper)", "Split Bregman on vertex positions with a tight wavelet frame"),
     Choice(
         "NORMALS",
         "Normals (keeps features)",
         "Cleans the directions of the faces, then fits the vertices to them; keeps sharp features",
     ),
+    Choice("POSITIONS", "Positions (paper)", "Split Bregman on vertex positions with a tight wavelet frame"),
     Choice(
         "BILATERAL", "Bilateral", "Bilateral mesh filtering (Fleishman et al. 2003), the paper's baseline"
     ),

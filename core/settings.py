@@ -8,39 +8,14 @@ scene settings and command line options are generated from its fields.
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields, replace
-from numbers import Integral, Real
+from dataclasses import dataclass, fields, replace
 from typing import Any, NamedTuple
 
-from .choices import BOUNDARIES, FRAMES, METHODS, SHRINKAGES, STENCILS, TUNINGS, Choice
-
-
-@dataclass(frozen=True)
-class SettingInfo:
-    """What a user interface needs to know about one setting.
-
-    `soft_maximum` is where a slider ends; typing may go up to `maximum`. `symbol` is the paper's letter.
-    `methods` are the methods that use the setting; empty for all.
-    """
-
-    label: str
-    description: str
-    minimum: float | None = None
-    maximum: float | None = None
-    soft_maximum: float | None = None
-    choices: tuple[Choice, ...] = ()
-    symbol: str = ""
-    methods: tuple[str, ...] = ()
-
-    def has_effect(self, method: str) -> bool:
-        """Tell whether a method uses the setting."""
-        return not self.methods or method in self.methods
-
-
-def _setting(default: Any, label: str, description: str, **info: Any) -> Any:
-    return field(default=default, metadata={"info": SettingInfo(label, description, **info)})
+from .choices import BOUNDARIES, FRAMES, METHODS, SHRINKAGES, STENCILS, TUNINGS
+from .setting_info import SettingInfo as SettingInfo
+from .setting_info import check_value
+from .setting_info import setting_field as _setting
 
 
 @dataclass(frozen=True)
@@ -56,7 +31,7 @@ class DenoiseSettings:
         On construction, in one sentence, if a value is out of range or not one of the choices.
     """
 
-    method: str = _setting("POSITIONS", "Method", "How the surface is cleaned", choices=METHODS)
+    method: str = _setting("POSITIONS", "Engine", "How the surface is cleaned", choices=METHODS)
     strength: float = _setting(
         1.0,
         "Strength",
@@ -91,7 +66,7 @@ class DenoiseSettings:
     levels: int = _setting(
         1,
         "Levels",
-        "Number of scales; a larger number also removes coarser noise",
+        "Number of scales: larger also removes coarser noise",
         minimum=1,
         maximum=6,
         methods=("POSITIONS",),
@@ -109,7 +84,8 @@ class DenoiseSettings:
     mu: float = _setting(
         1.0,
         "Penalty",
-        "Coupling of surface and coefficients: larger takes smaller, safer steps and needs more iterations",
+        "Coupling of surface and coefficients, without unit: larger takes smaller, safer steps and needs "
+        "more iterations",
         minimum=1e-3,
         maximum=1e4,
         soft_maximum=20.0,
@@ -119,7 +95,7 @@ class DenoiseSettings:
     delta: float = _setting(
         0.0,
         "Feedback",
-        "How much of the removed detail comes back at each iteration: larger stays closer to the input",
+        "Share of the removed detail that comes back at each iteration: larger stays closer to the input",
         minimum=0.0,
         maximum=1.0,
         symbol="δ",
@@ -178,8 +154,8 @@ class DenoiseSettings:
     sharpness: float = _setting(
         0.0,
         "Sharpening",
-        "Normals: above 0, differences between faces that are much larger than this are kept whole, for "
-        "shapes made of planes; larger keeps fewer of them",
+        "Normals: above 0, jumps of unit normals that are much longer than this are kept whole, for shapes "
+        "made of planes; larger keeps fewer of them",
         minimum=0.0,
         maximum=2.0,
         soft_maximum=0.5,
@@ -188,7 +164,7 @@ class DenoiseSettings:
     sigma_n: float = _setting(
         0.3,
         "Crease",
-        "Normals: faces whose directions differ by more than this are not averaged; larger smooths over "
+        "Normals: faces whose unit normals are farther apart than this are not averaged; larger smooths over "
         "sharper creases",
         minimum=0.01,
         maximum=2.0,
@@ -234,7 +210,7 @@ class DenoiseSettings:
 
     def __post_init__(self) -> None:
         for item in fields(self):
-            _check(item.metadata["info"], str(item.type), getattr(self, item.name))
+            check_value(item.metadata["info"], str(item.type), getattr(self, item.name))
 
     def with_changes(self, **changes: Any) -> DenoiseSettings:
         """Return a copy with some fields changed.
@@ -245,24 +221,6 @@ class DenoiseSettings:
             If a value is not allowed.
         """
         return replace(self, **changes)
-
-
-def _check(info: SettingInfo, kind: str, value: Any) -> None:
-    """Raise ValueError, with the value, unless it is allowed for this setting."""
-    label = f"{info.label} ({info.symbol})" if info.symbol else info.label
-    if info.choices:
-        names = [choice.identifier for choice in info.choices]
-        if value not in names:
-            raise ValueError(f"{label} is {value!r}; choose one of {', '.join(names)}.")
-        return
-    is_number = isinstance(value, Integral if kind == "int" else Real)
-    if not is_number or type(value) is bool:
-        raise ValueError(f"{label} is {value!r}; it must be a {'whole ' if kind == 'int' else ''}number.")
-    assert info.minimum is not None and info.maximum is not None
-    if not info.minimum <= value <= info.maximum:  # also refuses NaN
-        is_huge = isinstance(value, int) and abs(value) > sys.float_info.max
-        shown = "a huge number" if is_huge else f"{value:g}"
-        raise ValueError(f"{label} is {shown}; it must be between {info.minimum:g} and {info.maximum:g}.")
 
 
 class Preset(NamedTuple):
@@ -281,48 +239,60 @@ class Preset(NamedTuple):
 PRESETS: Mapping[str, Preset] = {
     "AUTO": Preset(
         "Automatic",
-        "Measures the noise and chooses everything else; keeps sharp features",
+        "For any noisy mesh: measures the noise and chooses everything else; keeps sharp features",
         {"method": "AUTO"},
     ),
-    "POSITIONS": Preset(
-        "Positions",
-        "The frame that fits the faces of the mesh, with straight pairs and vector shrinkage",
-        {"frame": "AUTO", "stencil": "STRAIGHT", "shrinkage": "VECTOR", "lambda_": 0.25},
-    ),
-    "TRI_1": Preset(
-        "Tri-1",
-        "The paper's Algorithm-Tri-1: one-ring means, all bands shrunk together; even and soft",
-        {"frame": "BOX_SPLINE_111", "stencil": "MEAN", "shrinkage": "BANDS", "lambda_": 0.5},
-    ),
-    "TRI_2": Preset(
-        "Tri-2",
-        "The paper's Algorithm-Tri-2: straight pairs, vector shrinkage; keeps edges better",
-        {"frame": "BOX_SPLINE_111", "stencil": "STRAIGHT", "shrinkage": "VECTOR", "lambda_": 0.3},
-    ),
-    "QUAD_1": Preset(
-        "Quad-1",
-        "The paper's Algorithm-Quad-1 for quads: one-ring means, every number shrunk by itself",
-        {"frame": "LINEAR_SPLINE", "stencil": "MEAN", "shrinkage": "SCALAR", "lambda_": 0.15},
-    ),
-    "QUAD_2": Preset(
-        "Quad-2",
-        "The paper's Algorithm-Quad-2 for quads: straight pairs, vector shrinkage; keeps edges better",
-        {"frame": "LINEAR_SPLINE", "stencil": "STRAIGHT", "shrinkage": "VECTOR", "lambda_": 0.2},
-    ),
     "FREE_FORM": Preset(
-        "Free-Form",
-        "Normals of scans and organic shapes: keeps fine relief and soft edges",
+        "Scan (free-form)",
+        "For scans and organic shapes: works on normals, keeps fine relief and soft edges",
         {"method": "NORMALS", "sigma_n": 0.35, "average_steps": 4},
     ),
     "PRISMATIC": Preset(
-        "Prismatic",
-        "Normals of machine parts and buildings: flat faces and sharp creases",
+        "CAD (prismatic)",
+        "For machine parts and buildings: works on normals, makes flat faces and sharp creases",
         {"method": "NORMALS", "sigma_n": 0.2, "average_steps": 25, "vertex_steps": 20},
+    ),
+    "MARCHING_CUBES": Preset(
+        "Marching Cubes / CT",
+        "For surfaces made of voxels, as from CT: turns steps into smooth shapes and does not shrink them",
+        {"method": "NORMALS", "sigma_n": 0.8, "average_steps": 12},
+    ),
+    "SCULPT": Preset(
+        "Sculpt (keep detail)",
+        "For sculpted and finely detailed meshes with a little noise: keeps strokes a few edges wide",
+        {"method": "NORMALS", "sigma_n": 0.25, "average_steps": 1},
+    ),
+    "POSITIONS": Preset(
+        "Positions",
+        "For even, soft smoothing of any mesh: the frame that fits its faces, vector shrinkage",
+        {"frame": "AUTO", "stencil": "STRAIGHT", "shrinkage": "VECTOR", "lambda_": 0.25},
+    ),
+    "TRI_1": Preset(
+        "Paper Tri-1",
+        "The paper's algorithm for triangles, even and soft: one-ring means, all bands shrunk together",
+        {"frame": "BOX_SPLINE_111", "stencil": "MEAN", "shrinkage": "BANDS", "lambda_": 0.5},
+    ),
+    "TRI_2": Preset(
+        "Paper Tri-2",
+        "The paper's algorithm for triangles that keeps edges better: straight pairs, vector shrinkage",
+        {"frame": "BOX_SPLINE_111", "stencil": "STRAIGHT", "shrinkage": "VECTOR", "lambda_": 0.3},
+    ),
+    "QUAD_1": Preset(
+        "Paper Quad-1",
+        "The paper's algorithm for quads, even and soft: one-ring means, every number shrunk by itself",
+        {"frame": "LINEAR_SPLINE", "stencil": "MEAN", "shrinkage": "SCALAR", "lambda_": 0.15},
+    ),
+    "QUAD_2": Preset(
+        "Paper Quad-2",
+        "The paper's algorithm for quads that keeps edges better: straight pairs, vector shrinkage",
+        {"frame": "LINEAR_SPLINE", "stencil": "STRAIGHT", "shrinkage": "VECTOR", "lambda_": 0.2},
     ),
     "BILATERAL": Preset(
         "Bilateral",
-        "Bilateral mesh filtering with five iterations, the method that the paper compares with",
+        "The method that the paper compares with: bilateral mesh filtering, five iterations",
         {"method": "BILATERAL", "iterations": 5},
     ),
 }
+"""In the order in which lists show them, each with one line that says what it is for."""
+
 DEFAULT_PRESET = "AUTO"

@@ -3,6 +3,7 @@
 """The operator that adds noise, to try out what denoising does."""
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import FloatProperty, IntProperty
 
 from . import mesh_bridge, targets
@@ -68,10 +69,7 @@ class OBJECT_OT_framelet_add_noise(bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Ask for a selected mesh, in Object Mode or Edit Mode."""
-        reason = targets.poll_reason(context)
-        if reason is not None:
-            cls.poll_message_set(reason)
-        return reason is None
+        return targets.allows(cls, targets.poll_reason(context))
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Add noise to every target."""
@@ -82,5 +80,6 @@ class OBJECT_OT_framelet_add_noise(bpy.types.Operator):
         if not done:
             return {"CANCELLED"}
         forget_estimate(context.window_manager.framelet_estimate, done)
-        self.report({"INFO"}, f"Added noise of {sigma:g} edge lengths to {targets.names_text(list(done))}")
+        text = rpt_("Added noise of {sigma:g} edge lengths to {names}")
+        self.report({"INFO"}, text.format(sigma=sigma, names=targets.names_text(list(done))))
         return {"FINISHED"}

@@ -3,13 +3,15 @@
 """The operators that store bands as attributes, and remove them."""
 
 import bpy
+from bpy.app.translations import pgettext_n as n_
+from bpy.app.translations import pgettext_rpt as rpt_
 
 from . import band_storage, targets
 from .band_settings import StoreMixin
 from .bands import analyze_object, clear_object, megabytes_text
 from .setting_values import as_typed
 from .settings import FrameMixin, LevelsMixin
-from .viewport import hide_vertex_colors
+from .viewport import hide_unused_colors
 
 
 class OBJECT_OT_framelet_analyze(FrameMixin, LevelsMixin, StoreMixin, bpy.types.Operator):
@@ -22,10 +24,7 @@ class OBJECT_OT_framelet_analyze(FrameMixin, LevelsMixin, StoreMixin, bpy.types.
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Ask for a selected mesh, in Object Mode."""
-        reason = targets.poll_reason(context, in_object_mode=True)
-        if reason is not None:
-            cls.poll_message_set(reason)
-        return reason is None
+        return targets.allows(cls, targets.poll_reason(context, in_object_mode=True))
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Analyze every target."""
@@ -41,7 +40,10 @@ class OBJECT_OT_framelet_analyze(FrameMixin, LevelsMixin, StoreMixin, bpy.types.
         n_bands = sum(sum(note.n_bands) for note, _ in done.values())
         n_bytes = sum(size for _, size in done.values())
         self.report(
-            {"INFO"}, f"Stored {n_bands} bands of {targets.names_text(list(done))}: {megabytes_text(n_bytes)}"
+            {"INFO"},
+            rpt_("Stored {number} bands of {names}: {size}").format(
+                number=n_bands, names=targets.names_text(list(done)), size=megabytes_text(n_bytes)
+            ),
         )
         return {"FINISHED"}
 
@@ -60,19 +62,16 @@ class OBJECT_OT_framelet_clear(bpy.types.Operator):
         if reason is None and not any(
             band_storage.has_traces(obj.data) for obj in targets.target_objects(context)
         ):
-            reason = "The selected meshes have nothing to remove"
-        if reason is not None:
-            cls.poll_message_set(reason)
-        return reason is None
+            reason = n_("The selected meshes have nothing to remove")
+        return targets.allows(cls, reason)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Clear every target."""
         done = targets.run_on_targets(self, context, lambda obj, _progress: clear_object(obj))
         if not done:
             return {"CANCELLED"}
-        meshes = [obj.data for obj in context.scene.objects if obj.type == "MESH"]
-        if not any(band_storage.has_colors(mesh) for mesh in meshes):
-            context.window_manager.framelet_band_range.names = ""
-            hide_vertex_colors(context)
-        self.report({"INFO"}, f"Removed the bands of {targets.names_text(list(done))}")
+        hide_unused_colors(context)
+        self.report(
+            {"INFO"}, rpt_("Removed the bands of {names}").format(names=targets.names_text(list(done)))
+        )
         return {"FINISHED"}

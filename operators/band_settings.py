@@ -23,7 +23,7 @@ class StoreMixin:
 
     max_megabytes: FloatProperty(
         name="Allowed",
-        description="Store nothing if the bands of a mesh would take more megabytes than this",
+        description="Megabytes that the bands of a mesh may take, or nothing is stored: larger allows more",
         default=500.0,
         min=0.0,
         soft_max=4000.0,
@@ -33,7 +33,42 @@ class StoreMixin:
     )
 
 
-class ShowMixin:
+class RangeMixin:
+    """Which values the colors cover."""
+
+    range_rule: EnumProperty(
+        name="Range",
+        description="Which values get the last colors of the map; values beyond look the same as those",
+        items=[
+            ("PERCENTILE", "Percentile", "All but the largest few, so that single spikes do not count"),
+            ("MAXIMUM", "Maximum", "The largest value"),
+            ("FIXED", "Fixed", "A length of your own, to compare several meshes or bands"),
+        ],
+        options=set(),
+    )
+    percentile: FloatProperty(
+        name="Percentile",
+        description="Share of the values within the range: larger makes it wider, and all colors paler",
+        default=98.0,
+        min=1.0,
+        max=100.0,
+        precision=1,
+        subtype="PERCENTAGE",
+        options=set(),
+    )
+    limit: FloatProperty(
+        name="Limit",
+        description="The value that gets the last color, in scene units: larger makes all colors paler",
+        default=0.01,
+        min=1e-9,
+        soft_max=1.0,
+        unit="LENGTH",
+        precision=4,
+        options=set(),
+    )
+
+
+class ShowMixin(RangeMixin):
     """Which band is shown, and which values the colors cover."""
 
     content: EnumProperty(
@@ -48,7 +83,7 @@ class ShowMixin:
     )
     level: IntProperty(
         name="Level",
-        description="Which scale: 1 is the finest, each further one is twice as coarse",
+        description="Which scale: larger is coarser; 1 is the finest, each further one is twice as coarse",
         default=1,
         min=1,
         max=MOST_LEVELS,
@@ -56,7 +91,7 @@ class ShowMixin:
     )
     band: IntProperty(
         name="Band",
-        description="Which band of the level, numbered as the rows of the mask-matrix",
+        description="Which band of the level: larger is a later row of the mask-matrix",
         default=1,
         min=1,
         options=set(),
@@ -70,36 +105,6 @@ class ShowMixin:
         ],
         options=set(),
     )
-    range_rule: EnumProperty(
-        name="Range",
-        description="Which values get the last colors of the map; values beyond look the same as those",
-        items=[
-            ("PERCENTILE", "Percentile", "All but the largest few, so that single spikes do not count"),
-            ("MAXIMUM", "Maximum", "The largest value"),
-            ("FIXED", "Fixed", "A length of your own, to compare several meshes or bands"),
-        ],
-        options=set(),
-    )
-    percentile: FloatProperty(
-        name="Percentile",
-        description="Share of the vertices whose values are within the range",
-        default=98.0,
-        min=1.0,
-        max=100.0,
-        precision=1,
-        subtype="PERCENTAGE",
-        options=set(),
-    )
-    limit: FloatProperty(
-        name="Limit",
-        description="The value that gets the last color, in scene units",
-        default=0.01,
-        min=1e-9,
-        soft_max=1.0,
-        unit="LENGTH",
-        precision=4,
-        options=set(),
-    )
 
 
 def _gain_property(level: int) -> Any:
@@ -107,7 +112,7 @@ def _gain_property(level: int) -> Any:
     which = "the finest details" if level == 1 else f"details {2 ** (level - 1)} edges wide"
     return FloatProperty(
         name=f"Level {level}",
-        description=f"Gain for {which}: below 1 smooths them, 1 keeps them, above 1 exaggerates them",
+        description=f"Factor for {which}: larger makes them stronger; 0 removes them, 1 keeps them",
         default=1.0,
         min=0.0,
         max=100.0,
@@ -123,7 +128,9 @@ class EqualizerMixin:
 
     __annotations__ = {
         "levels": setting_property(
-            FIELDS["levels"], default=3, description="Number of scales that have a gain; 1 is the finest"
+            FIELDS["levels"],
+            default=3,
+            description="Number of scales that have a gain: larger reaches coarser details",
         ),
         **{name: _gain_property(level) for level, name in enumerate(GAIN_NAMES, 1)},
         "vertex_group": StringProperty(

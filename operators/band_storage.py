@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Bands as attributes of a mesh, and the note beside them that says how to read them.
 
-With `mesh_bridge` the only file that reads or writes mesh data. Positions are not touched here.
+With `mesh_bridge` and `shape_keys` the only file that touches mesh data. Positions are not written here.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from hashlib import blake2b
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..core.settings import DenoiseSettings
+from .mesh_bridge import ownership_refusal
 from .setting_values import FRAME_NAMES
 
 if TYPE_CHECKING:
@@ -26,9 +27,10 @@ NOTE = "framelet_bands"
 LOW = "framelet_low"
 REST = "framelet_rest"
 COLORS = "framelet_band"
+HEAT_COLORS = "framelet_heat_map"
 COLORS_BEFORE = "framelet_colors_before"
 
-_OURS = re.compile(rf"{LOW}|{REST}|{COLORS}|framelet_L\d+_B\d+(_edges)?")
+_OURS = re.compile(rf"{LOW}|{REST}|{COLORS}|{HEAT_COLORS}|framelet_L\d+_B\d+(_edges)?")
 _AGAIN = "analyze it again."
 
 
@@ -78,8 +80,8 @@ def has_note(mesh: bpy.types.Mesh) -> bool:
 
 
 def has_colors(mesh: bpy.types.Mesh) -> bool:
-    """Tell whether a mesh has the colors of a band."""
-    return COLORS in mesh.attributes
+    """Tell whether a mesh has the colors of a band or a heat map."""
+    return COLORS in mesh.attributes or HEAT_COLORS in mesh.attributes
 
 
 def has_traces(mesh: bpy.types.Mesh) -> bool:
@@ -172,36 +174,53 @@ def read_vectors(obj: bpy.types.Object, name: str, domain: str) -> NDArray[np.fl
     return vectors
 
 
-def write_colors(mesh: bpy.types.Mesh, colors: NDArray[np.float32]) -> None:
-    """Write vertex colors, shape (N, 4), and make them those that are shown and rendered."""
+def write_colors(
+    mesh: bpy.types.Mesh, colors: NDArray[np.float32], name: str = COLORS, domain: str = "POINT"
+) -> None:
+    """Write colors, and make them those that are shown and rendered; others of Framelet's are removed.
+
+    Parameters
+    ----------
+    mesh : bpy.types.Mesh
+        The mesh that is changed.
+    colors : ndarray, shape (elements of the domain, 4), float32
+        Scene-linear colors.
+    name : str
+        COLORS or HEAT_COLORS.
+    domain : str
+        POINT, or CORNER for colors that differ between faces.
+    """
     if COLORS_BEFORE not in mesh:
         mesh[COLORS_BEFORE] = [mesh.attributes.active_color_name, mesh.attributes.default_color_name]
-    attribute = mesh.attributes.get(COLORS)
-    if attribute is not None and (attribute.data_type, attribute.domain) != ("FLOAT_COLOR", "POINT"):
-        mesh.attributes.remove(attribute)
-        attribute = None
-    if attribute is None:
-        mesh.color_attributes.new(COLORS, "FLOAT_COLOR", "POINT")
-    mesh.attributes[COLORS].data.foreach_set("color", colors.reshape(-1))
-    mesh.attributes.active_color_name = COLORS
-    mesh.attributes.default_color_name = COLORS
+    for other in (COLORS, HEAT_COLORS):
+        attribute = mesh.attributes.get(other)
+        if attribute is None:
+            continue
+        if other != name or (attribute.data_type, attribute.domain) != ("FLOAT_COLOR", domain):
+            mesh.attributes.remove(attribute)
+    if name not in mesh.attributes:
+        mesh.color_attributes.new(name, "FLOAT_COLOR", domain)
+    mesh.attributes[name].data.foreach_set("color", colors.reshape(-1))
+    mesh.attributes.active_color_name = name
+    mesh.attributes.default_color_name = name
     mesh.update()
 
 
 def remove_bands(mesh: bpy.types.Mesh) -> None:
     """Remove the stored bands and the note, but not the colors."""
     for name in [item.name for item in mesh.attributes]:
-        if _OURS.fullmatch(name) and name != COLORS:
+        if _OURS.fullmatch(name) and name not in (COLORS, HEAT_COLORS):
             mesh.attributes.remove(mesh.attributes[name])
     if NOTE in mesh:
         del mesh[NOTE]
 
 
 def remove_colors(mesh: bpy.types.Mesh) -> None:
-    """Remove the colors of a band; those that were active before are active again."""
-    attribute = mesh.attributes.get(COLORS)
-    if attribute is not None:
-        mesh.attributes.remove(attribute)
+    """Remove the colors of a band or heat map; those that were active before are active again."""
+    for name in (COLORS, HEAT_COLORS):
+        attribute = mesh.attributes.get(name)
+        if attribute is not None:
+            mesh.attributes.remove(attribute)
     if COLORS_BEFORE not in mesh:
         return
     active, default = list(mesh[COLORS_BEFORE])
@@ -209,3 +228,17 @@ def remove_colors(mesh: bpy.types.Mesh) -> None:
     mesh.attributes.active_color_name = active
     mesh.attributes.default_color_name = default
     mesh.update()
+
+
+def remove_object_colors(obj: bpy.types.Object) -> None:
+    """Remove the colors from an object's mesh as `remove_colors` does.
+
+    Raises
+    ------
+    ValueError
+        With a sentence that names the object, if its mesh cannot be written to.
+    """
+    reason = ownership_refusal(obj)
+    if reason is not None:
+        raise ValueError(reason)
+    remove_colors(obj.data)

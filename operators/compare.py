@@ -5,9 +5,11 @@
 from typing import TYPE_CHECKING
 
 import bpy
+from bpy.app.translations import pgettext_n as n_
+from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import StringProperty
 
-from . import mesh_bridge
+from . import mesh_bridge, targets
 from .filled_reports import fill_comparison
 from .scene_units import length_text, surface_in_scene
 
@@ -64,8 +66,7 @@ class OBJECT_OT_framelet_compare(bpy.types.Operator):
         """Ask for an active mesh."""
         obj = context.active_object
         if obj is None or obj.type != "MESH":
-            cls.poll_message_set("The active object must be a mesh")
-            return False
+            return targets.allows(cls, n_("The active object must be a mesh"))
         return True
 
     def execute(self, context: bpy.types.Context) -> set[str]:
@@ -81,8 +82,16 @@ class OBJECT_OT_framelet_compare(bpy.types.Operator):
         edges = comparison.rms_distance / comparison.mean_edge_length
         self.report(
             {"INFO"},
-            f"‘{obj.name}’ against ‘{other.name}’: {comparison.mean_angle:.3f}° mean angle, "
-            f"{length_text(context.scene, comparison.rms_distance)} RMS distance ({edges:.3f} edge lengths)",
+            rpt_(
+                "‘{name}’ against ‘{other}’: {angle:.3f}° mean angle, {distance} RMS distance "
+                "({edges:.3f} edge lengths)"
+            ).format(
+                name=obj.name,
+                other=other.name,
+                angle=comparison.mean_angle,
+                distance=length_text(context.scene, comparison.rms_distance),
+                edges=edges,
+            ),
         )
         return {"FINISHED"}
 

@@ -1,19 +1,31 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The operator behind the button Denoise."""
+"""The operator behind the button Denoise, and the one that cancels it."""
+
+from __future__ import annotations
 
 import bpy
+from bpy.app.translations import pgettext_n as n_
+from bpy.app.translations import pgettext_rpt as rpt_
 
 from . import targets
-from .denoise_object import denoise_and_measure
-from .filled_reports import fill_estimate_of_run, fill_report
-from .report import FrameletReport
-from .scene_units import length_text, noise_text
+from .current_preview import end_preview
+from .current_run import IS_RUNNING, current_run, set_current
+from .denoise_report import report_written
+from .denoise_run import DenoiseRun, State, begin_run
+from .region_settings import RegionMixin
+from .region_values import shown_region_names, to_region_options
+from .run_display import RunDisplay
 from .setting_values import PROPERTY_NAMES, fill, has_effect, is_replaced, to_settings
-from .settings import SettingsMixin
+from .settings import OutputMixin, SettingsMixin
+
+TICK = 0.05
+"""Seconds between two looks at a run."""
+
+CANCELED = n_("Canceled; nothing was changed")
 
 
-class OBJECT_OT_framelet_denoise(SettingsMixin, bpy.types.Operator):
+class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, RegionMixin, bpy.types.Operator):
     """Remove noise from the selected meshes; in Edit Mode only the selected vertices move"""
 
     bl_idname = "object.framelet_denoise"
@@ -22,11 +34,8 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Ask for a selected mesh, in Object Mode or Edit Mode."""
-        reason = targets.poll_reason(context)
-        if reason is not None:
-            cls.poll_message_set(reason)
-        return reason is None
+        """Ask for a selected mesh, in Object Mode or Edit Mode, and for no run that is going on."""
+        return targets.allows(cls, IS_RUNNING if current_run() else targets.poll_reason(context))
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Show, when adjusting the last operation, the settings that the method uses."""
@@ -38,34 +47,115 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, bpy.types.Operator):
                 row = layout.row()
                 row.active = not is_replaced(self.method, self.tuning, name)
                 row.prop(self, name)
+        layout.prop(self, "output")
+        for name in shown_region_names(self):
+            layout.prop(self, name)
+
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        """Start the run on a thread and stay in charge of it; without a window, run at once."""
+        if bpy.app.background or context.window is None:
+            return self.execute(context)
+        if not self._begin(context):
+            return {"CANCELLED"}
+        self._timer = context.window_manager.event_timer_add(TICK, window=context.window)
+        self._display = RunDisplay(context, self._run)
+        try:
+            self._run.start()
+        except Exception:
+            self.cancel(context)
+            raise
+        context.window_manager.modal_handler_add(self)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Look at the run at each tick; Esc and the right mouse button cancel, all else is Blender's."""
+        try:
+            if event.type in {"ESC", "RIGHTMOUSE"} and event.value == "PRESS":
+                self._run.cancel()
+            state = self._run.tick()
+            if state is State.RUNNING:
+                self._display.update(context)
+                return {"PASS_THROUGH"}
+            self._end(context)
+            return self._finish(context)
+        except Exception:
+            # Blender shows the error; what must not stay is a run that nobody looks at any more.
+            self._run.cancel()
+            self._end(context)
+            raise
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Give up when Blender ends the operator: the window closes, another file is opened."""
+        self._run.cancel()
+        self._end(context)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        """Denoise every target and fill the report of the last run."""
+        """Denoise every target at once."""
+        if not self._begin(context):
+            return {"CANCELLED"}
+        manager = context.window_manager
+        manager.progress_begin(0.0, 1.0)
+        try:
+            self._run.run_here(manager.progress_update)
+        except BaseException:
+            self._run.cancel()  # or it would count as going on for ever
+            raise
+        finally:
+            manager.progress_end()
+        return self._finish(context)
+
+    def _begin(self, context: bpy.types.Context) -> bool:
+        """Read the targets; report why not if there is nothing to do."""
         settings = to_settings(self)
         # The panel for adjusting the last operation shows the values that were used, defaults included.
         fill(self, settings)
-        measured = targets.run_on_targets(
-            self, context, lambda obj, progress: denoise_and_measure(obj, settings, progress)
-        )
-        if not measured:
+        end_preview()
+        try:
+            self._run: DenoiseRun = begin_run(
+                targets.target_objects(context), settings, self.output, to_region_options(self)
+            )
+            set_current(self._run)
+        except ValueError as error:
+            self.report({"ERROR"}, str(error))
+            return False
+        return True
+
+    def _end(self, context: bpy.types.Context) -> None:
+        """Take away what shows the run."""
+        if self._timer is not None:
+            context.window_manager.event_timer_remove(self._timer)
+            self._timer = None
+        self._display.remove()
+
+    def _finish(self, context: bpy.types.Context) -> set[str]:
+        """Write what came of the run, and report it."""
+        run = self._run
+        if run.state is State.CANCELED:
+            self.report({"INFO"}, rpt_(CANCELED))
             return {"CANCELLED"}
-        report = context.window_manager.framelet_report
-        fill_report(report, measured)
-        fill_estimate_of_run(context.window_manager.framelet_estimate, measured)
-        self.report(
-            {"INFO"},
-            f"Denoised {targets.names_text(list(measured))}: {report.n_moved:,} of {report.n_vertices:,} "
-            f"vertices moved, {length_text(context.scene, report.displacement_rms)} RMS "
-            f"({report.displacement_rms_edges:.3f} edge lengths), in {report.seconds:.2f} s"
-            f"{_noise_words(context.scene, report)}",
-        )
+        if run.state is State.FAILED:
+            self.report({"ERROR"}, run.reason)
+            return {"CANCELLED"}
+        written = run.finish()
+        if run.failures:
+            self.report({"WARNING"}, " ".join(run.failures))
+        report_written(self, context, written)
         return {"FINISHED"}
 
 
-def _noise_words(scene: bpy.types.Scene, report: FrameletReport) -> str:
-    """Say which noise was measured and what was made of it; nothing if it was not measured."""
-    if not report.has_noise:
-        return ""
-    noise = noise_text(scene, report.noise_sigma, report.noise_sigma_edges, report.is_impulsive)
-    taken = report.recipe or report.parameters
-    return f"; noise {noise}" + (f"; used {taken}" if taken else "")
+class OBJECT_OT_framelet_cancel(bpy.types.Operator):
+    """Cancel the run that is going on; everything stays as it was"""
+
+    bl_idname = "object.framelet_cancel"
+    bl_label = "Cancel"
+    bl_options = {"INTERNAL"}
+
+    @classmethod
+    def poll(cls, _context: bpy.types.Context) -> bool:
+        """Ask for a run."""
+        return targets.allows(cls, n_("Framelet is not running") if current_run() is None else None)
+
+    def execute(self, _context: bpy.types.Context) -> set[str]:
+        """Cancel; the operator that is in charge of the run ends at its next tick."""
+        current_run().cancel()
+        return {"FINISHED"}

@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
 
 from . import mesh_bridge, targets
 from .band_settings import EQUALIZER_NAMES, GAIN_NAMES, EqualizerMixin
@@ -83,10 +84,7 @@ class OBJECT_OT_framelet_equalize(FrameMixin, EqualizerMixin, bpy.types.Operator
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Ask for a selected mesh, in Object Mode or Edit Mode."""
-        reason = targets.poll_reason(context)
-        if reason is not None:
-            cls.poll_message_set(reason)
-        return reason is None
+        return targets.allows(cls, targets.poll_reason(context))
 
     def draw(self, context: bpy.types.Context) -> None:
         """Show, when adjusting the last operation, the gains of the levels in use."""
@@ -115,7 +113,8 @@ class OBJECT_OT_framelet_equalize(FrameMixin, EqualizerMixin, bpy.types.Operator
         largest = max(maximum for _, maximum in done.values())
         self.report(
             {"INFO"},
-            f"Equalized {targets.names_text(list(done))}: vertices moved by up to "
-            f"{length_text(context.scene, largest)}",
+            rpt_("Equalized {names}: vertices moved by up to {length}").format(
+                names=targets.names_text(list(done)), length=length_text(context.scene, largest)
+            ),
         )
         return {"FINISHED"}

@@ -7,6 +7,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
 
 from . import mesh_bridge, targets
 from .filled_reports import fill_estimate
@@ -60,10 +61,7 @@ class OBJECT_OT_framelet_estimate_noise(bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Ask for a selected mesh, in Object Mode or Edit Mode."""
-        reason = targets.poll_reason(context)
-        if reason is not None:
-            cls.poll_message_set(reason)
-        return reason is None
+        return targets.allows(cls, targets.poll_reason(context))
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Measure every target, and keep the results for the sidebar."""
@@ -82,9 +80,13 @@ def _sentence(scene: bpy.types.Scene, measured: dict[str, MeasuredNoise]) -> str
         for name, item in measured.items()
     }
     if len(texts) == 1:
-        return f"Noise of {targets.names_text(list(texts))}: {next(iter(texts.values()))}"
+        text = rpt_("Noise of {names}: {noise}")
+        return text.format(names=targets.names_text(list(texts)), noise=next(iter(texts.values())))
     names = sorted(measured, key=lambda name: measured[name].noise.sigma_edges)
-    return (
-        f"Noise of {targets.names_text(names)}: from {texts[names[0]]} of ‘{names[0]}’ "
-        f"to {texts[names[-1]]} of ‘{names[-1]}’"
+    return rpt_("Noise of {names}: from {least} of ‘{first}’ to {most} of ‘{last}’").format(
+        names=targets.names_text(names),
+        least=texts[names[0]],
+        first=names[0],
+        most=texts[names[-1]],
+        last=names[-1],
     )

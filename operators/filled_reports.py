@@ -7,11 +7,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
+from .chosen_values import chosen_texts
+
 if TYPE_CHECKING:
     from ..core import Comparison, NoiseEstimate
     from ..core.denoising.report import DenoiseReport
-    from .band_values import BandChoice, ColorRange
-    from .denoise_object import MeasuredReport
+    from .band_values import ColorRange
+    from .denoise_job import MeasuredReport
     from .estimate_noise import MeasuredNoise
     from .report import FrameletBandRange, FrameletComparison, FrameletEstimate, FrameletNoise, FrameletReport
 
@@ -19,6 +21,13 @@ SUMMED = (
     "n_vertices",
     "n_moved",
     "flipped_faces",
+    "folded_faces",
+    "folded_faces_before",
+    "degenerate_faces",
+    "degenerate_faces_before",
+    "damped_vertices",
+    "line_vertices",
+    "welded_vertices",
     "irregular_vertices",
     "boundary_vertices",
     "non_manifold_vertices",
@@ -76,6 +85,8 @@ def fill_estimate_of_run(properties: FrameletEstimate, measured: Mapping[str, Me
         if noise is not None:
             entry = _add_noise(properties, name, noise, item.scene_sigma)
             entry.is_denoised, entry.recipe = True, item.report.recipe
+            for field, text in chosen_texts(item.report).items():
+                setattr(entry, field, text)
 
 
 def forget_estimate(properties: FrameletEstimate, names: Iterable[str]) -> None:
@@ -96,15 +107,19 @@ def fill_comparison(properties: FrameletComparison, name: str, other: str, compa
 
 
 def fill_band_range(
-    properties: FrameletBandRange, names: list[str], choice: BandChoice, found: ColorRange
+    properties: FrameletBandRange,
+    names: list[str],
+    title: str,
+    found: ColorRange,
+    *,
+    is_signed: bool,
+    quantity: str = "",
+    is_angle: bool = False,
 ) -> None:
-    """Take over which values the colors of a band cover."""
-    properties.names, properties.title, properties.is_signed = (
-        ", ".join(names),
-        choice.title,
-        choice.is_signed,
-    )
-    properties.minimum = -found.limit if choice.is_signed else 0.0
+    """Take over what colors mean; `quantity` is that of a heat map."""
+    properties.names, properties.title, properties.is_signed = ", ".join(names), title, is_signed
+    properties.quantity, properties.is_angle = quantity, is_angle
+    properties.minimum = -found.limit if is_signed else 0.0
     properties.maximum, properties.largest = found.limit, found.largest
     properties.share = 100.0 * found.share
 

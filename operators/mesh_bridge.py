@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Blender meshes as arrays and back: with `band_storage` the only file that reads or writes mesh data.
+"""Blender meshes as arrays and back.
+
+With `band_storage`, `shape_keys` and `kept_original` this is all that touches mesh data. What limits a run to
+parts of a mesh is read through it by `region_bridge`.
 
 In Object Mode the arrays come from the mesh, in Edit Mode from the BMesh of the edit session. With shape keys
 the active key is what is read and edited, as in Blender's own Edit Mode. Nothing but positions is written.
@@ -8,10 +11,20 @@ the active key is what is read and edited, as in Blender's own Edit Mode. Nothin
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 import bmesh
 import bpy
+
+from .shape_keys import (
+    active_key,
+    dependent_keys,
+    read_key_points,
+    write_key_points,
+    write_positions,
+)
 
 if TYPE_CHECKING:
     import numpy as np
@@ -20,14 +33,23 @@ if TYPE_CHECKING:
     from ..core import SurfaceMesh
 
 
-def ownership_refusal(obj: bpy.types.Object | None) -> str | None:
-    """Say in one sentence why nothing can be written to the mesh of an object; None if it can be."""
+def kind_refusal(obj: bpy.types.Object | None) -> str | None:
+    """Say in one sentence why an object has no mesh; None if it has one."""
     if obj is None:
         return "There is no active object; select a mesh object."
-    name = f"‘{obj.name}’"
     if obj.type != "MESH":
-        return f"{name} is not a mesh; select mesh objects, or convert it first (Object > Convert > Mesh)."
-    mesh = obj.data
+        return (
+            f"‘{obj.name}’ is not a mesh; select mesh objects, or convert it first (Object > Convert > Mesh)."
+        )
+    return None
+
+
+def ownership_refusal(obj: bpy.types.Object | None) -> str | None:
+    """Say in one sentence why nothing can be written to the mesh of an object; None if it can be."""
+    reason = kind_refusal(obj)
+    if reason is not None:
+        return reason
+    name, mesh = f"‘{obj.name}’", obj.data
     if mesh.library is not None:
         return (
             f"{name} uses a mesh linked from {mesh.library.filepath}; "
@@ -41,21 +63,25 @@ def ownership_refusal(obj: bpy.types.Object | None) -> str | None:
     return None
 
 
+def faces_refusal(obj: bpy.types.Object) -> str | None:
+    """Say in one sentence that a mesh has no faces; None if it has."""
+    mesh = obj.data
+    n_faces = len(bmesh.from_edit_mesh(mesh).faces) if mesh.is_editmode else len(mesh.polygons)
+    return None if n_faces else f"‘{obj.name}’ has no faces; Framelet works on surfaces."
+
+
 def refusal(obj: bpy.types.Object | None) -> str | None:
     """Say in one sentence why the mesh of an object cannot be edited; None if it can be."""
     reason = ownership_refusal(obj)
     if reason is not None:
         return reason
-    name, mesh = f"‘{obj.name}’", obj.data
+    name = f"‘{obj.name}’"
     if obj.mode not in {"OBJECT", "EDIT"}:
         return f"{name} is in another mode; switch to Object Mode or Edit Mode."
     key = obj.active_shape_key
     if key is not None and key.lock_shape:
         return f"The active shape key ‘{key.name}’ of {name} is locked; unlock it or choose another one."
-    n_faces = len(bmesh.from_edit_mesh(mesh).faces) if mesh.is_editmode else len(mesh.polygons)
-    if n_faces == 0:
-        return f"{name} has no faces; Framelet works on surfaces."
-    return None
+    return faces_refusal(obj)
 
 
 def read_surface(obj: bpy.types.Object) -> SurfaceMesh:
@@ -84,17 +110,38 @@ def read_surface_and_movable(obj: bpy.types.Object) -> tuple[SurfaceMesh, NDArra
     movable : ndarray of bool, shape (N,), or None
         True for the selected vertices that are not hidden; None, for all, in Object Mode.
     """
+    with readable_mesh(obj) as mesh:
+        if not obj.data.is_editmode:
+            return read_arrays(mesh, active_key(obj)), None
+        movable = read_flag(mesh, ".select_vert") & ~read_flag(mesh, ".hide_vert")
+        return read_arrays(mesh, None), movable
+
+
+@contextmanager
+def readable_mesh(obj: bpy.types.Object) -> Iterator[bpy.types.Mesh]:
+    """Give a mesh whose arrays can be read: the object's own, in Edit Mode a copy of the edit session."""
     mesh = obj.data
     if not mesh.is_editmode:
-        return _read_arrays(mesh, _active_key(obj)), None
+        yield mesh
+        return
     # A temporary mesh gives arrays without a Python loop over the BMesh.
     temporary = bpy.data.meshes.new(".framelet")
     try:
         bmesh.from_edit_mesh(mesh).to_mesh(temporary)
-        movable = _read_flag(temporary, ".select_vert") & ~_read_flag(temporary, ".hide_vert")
-        return _read_arrays(temporary, None), movable
+        yield temporary
     finally:
         bpy.data.meshes.remove(temporary)
+
+
+def has_counts_of(obj: bpy.types.Object, surface: SurfaceMesh) -> bool:
+    """Tell whether a mesh has as many vertices, edges and faces as when it was read."""
+    mesh = obj.data
+    if mesh.is_editmode:
+        edit_mesh = bmesh.from_edit_mesh(mesh)
+        counts = (len(edit_mesh.verts), len(edit_mesh.edges), len(edit_mesh.faces))
+    else:
+        counts = (len(mesh.vertices), len(mesh.edges), len(mesh.polygons))
+    return counts == (surface.n_vertices, surface.n_edges, surface.n_faces)
 
 
 def read_weights(obj: bpy.types.Object, group_name: str) -> NDArray[np.float64]:
@@ -152,34 +199,58 @@ def write_vertices(obj: bpy.types.Object, before: SurfaceMesh, vertices: NDArray
     vertices : ndarray, shape (N, 3)
         New positions in object space.
     """
+    moved, positions = _moved(before, vertices)
+    if len(moved) == 0:
+        return
+    mesh = obj.data
+    if mesh.is_editmode:
+        _write_edit_mesh(mesh, moved, positions)
+        return
+    active = active_key(obj)
+    if active is None:
+        write_positions(mesh, positions)
+    else:
+        write_key_points(active, positions)
+        dependent = dependent_keys(mesh.shape_keys, active)
+        offset = positions[moved] - before.vertices[moved]
+        for key in dependent:
+            shifted = read_key_points(key)
+            shifted[moved] += offset
+            write_key_points(key, shifted)
+        reference = mesh.shape_keys.reference_key
+        if reference in [active, *dependent]:
+            write_positions(mesh, read_key_points(reference))
+    mesh.update()
+
+
+def write_key(key: bpy.types.ShapeKey, before: SurfaceMesh, vertices: NDArray[np.floating]) -> None:
+    """Write positions to one shape key; vertices that did not move have the bits they had when read."""
+    write_key_points(key, _moved(before, vertices)[1])
+
+
+def show_positions(mesh: bpy.types.Mesh, positions: NDArray[np.float32]) -> None:
+    """Write the positions of all vertices, shape (N, 3), of a mesh in Object Mode without shape keys."""
+    write_positions(mesh, positions)
+    mesh.update()
+
+
+def with_moved(before: SurfaceMesh, vertices: NDArray[np.floating]) -> NDArray[np.float32]:
+    """Return the positions that `write_vertices` writes to a mesh, shape (N, 3)."""
+    return _moved(before, vertices)[1]
+
+
+def _moved(
+    before: SurfaceMesh, vertices: NDArray[np.floating]
+) -> tuple[NDArray[np.intp], NDArray[np.float32]]:
+    """Return which vertices moved, and all positions, shape (N, 3)."""
     import numpy as np
 
     # Compared by value, so that a zero that only changed its sign keeps its bits too.
     new = np.asarray(vertices, np.float32)
     moved = np.flatnonzero((new != before.vertices).any(axis=1))
-    if len(moved) == 0:
-        return
-    mesh = obj.data
-    if mesh.is_editmode:
-        _write_edit_mesh(mesh, moved, new)
-        return
     positions = before.vertices.astype(np.float32)
     positions[moved] = new[moved]
-    active = _active_key(obj)
-    if active is None:
-        _write_positions(mesh, positions)
-    else:
-        _write_key_points(active, positions)
-        dependent = _dependent_keys(mesh.shape_keys, active)
-        offset = positions[moved] - before.vertices[moved]
-        for key in dependent:
-            shifted = _read_key_points(key)
-            shifted[moved] += offset
-            _write_key_points(key, shifted)
-        reference = mesh.shape_keys.reference_key
-        if reference in [active, *dependent]:
-            _write_positions(mesh, _read_key_points(reference))
-    mesh.update()
+    return moved, positions
 
 
 def _write_edit_mesh(mesh: bpy.types.Mesh, moved: NDArray[np.intp], vertices: NDArray[np.float32]) -> None:
@@ -193,19 +264,14 @@ def _write_edit_mesh(mesh: bpy.types.Mesh, moved: NDArray[np.intp], vertices: ND
     bmesh.update_edit_mesh(mesh, loop_triangles=True, destructive=False)
 
 
-def _read_arrays(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey | None) -> SurfaceMesh:
+def read_arrays(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey | None) -> SurfaceMesh:
     """Read the arrays of a mesh, with the positions of a shape key if one is given."""
     import numpy as np
 
     from ..core import SurfaceMesh
 
     n_corners, n_faces = len(mesh.loops), len(mesh.polygons)
-    if key is None:
-        vertices = np.empty((len(mesh.vertices), 3), np.float32)
-        if len(vertices):
-            mesh.attributes["position"].data.foreach_get("vector", vertices.reshape(-1))
-    else:
-        vertices = _read_key_points(key)
+    vertices = read_positions(mesh) if key is None else read_key_points(key)
     edges = np.empty((len(mesh.edges), 2), np.int32)
     mesh.edges.foreach_get("vertices", edges.reshape(-1))
     corner_vertex = np.empty(n_corners, np.int32)
@@ -218,7 +284,17 @@ def _read_arrays(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey | None) -> Surfac
     return SurfaceMesh(vertices, corner_vertex, corner_edge, face_offset, edges)
 
 
-def _read_flag(mesh: bpy.types.Mesh, name: str) -> NDArray[np.bool_]:
+def read_positions(mesh: bpy.types.Mesh) -> NDArray[np.float32]:
+    """Read the positions of the mesh itself, shape (N, 3), in Object Mode."""
+    import numpy as np
+
+    vertices = np.empty((len(mesh.vertices), 3), np.float32)
+    if len(vertices):
+        mesh.attributes["position"].data.foreach_get("vector", vertices.reshape(-1))
+    return vertices
+
+
+def read_flag(mesh: bpy.types.Mesh, name: str) -> NDArray[np.bool_]:
     """Read a vertex attribute of truth values; Blender leaves it away when all are false."""
     import numpy as np
 
@@ -229,46 +305,12 @@ def _read_flag(mesh: bpy.types.Mesh, name: str) -> NDArray[np.bool_]:
     return values
 
 
-def _write_positions(mesh: bpy.types.Mesh, positions: NDArray[np.float32]) -> None:
-    """Write the positions of the mesh itself."""
-    mesh.attributes["position"].data.foreach_set("vector", positions.reshape(-1))
-
-
-def _active_key(obj: bpy.types.Object) -> bpy.types.ShapeKey | None:
-    """Return the shape key that is edited; None without shape keys."""
-    keys = obj.data.shape_keys
-    if keys is None:
-        return None
-    return obj.active_shape_key or keys.reference_key
-
-
-def _dependent_keys(keys: bpy.types.Key, active: bpy.types.ShapeKey) -> list[bpy.types.ShapeKey]:
-    """Return the keys that are relative to a key, directly or through others."""
-    if not keys.use_relative:
-        return []
-    dependent: list[bpy.types.ShapeKey] = []
-    found = [active]
-    while found:
-        base = found.pop()
-        followers = [
-            key
-            for key in keys.key_blocks
-            if key.relative_key == base and key != active and key not in dependent
-        ]
-        dependent += followers
-        found += followers
-    return dependent
-
-
-def _read_key_points(key: bpy.types.ShapeKey) -> NDArray[np.float32]:
-    """Read the positions of a shape key, shape (N, 3)."""
+def read_edge_values(mesh: bpy.types.Mesh, name: str, dtype: str) -> NDArray:
+    """Read an attribute of edges, shape (E,); all false or 0 where there is none of this name."""
     import numpy as np
 
-    positions = np.empty((len(key.points), 3), np.float32)
-    key.points.foreach_get("co", positions.reshape(-1))
-    return positions
-
-
-def _write_key_points(key: bpy.types.ShapeKey, positions: NDArray[np.float32]) -> None:
-    """Write the positions of a shape key."""
-    key.points.foreach_set("co", positions.reshape(-1))
+    values = np.zeros(len(mesh.edges), dtype)
+    attribute = mesh.attributes.get(name)
+    if attribute is not None and attribute.domain == "EDGE":
+        attribute.data.foreach_get("value", values)
+    return values

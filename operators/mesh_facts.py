@@ -6,6 +6,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from bpy.app.translations import pgettext_n as n_
+
 from ..core.frame_catalog import FRAME_CATALOG
 from . import mesh_bridge
 
@@ -119,11 +121,11 @@ def misfit(frame: str, stencil: str, facts: MeshFacts) -> tuple[str, str] | None
         return None
     lattice = _LATTICES[frame]
     if lattice == "QUADS" and not facts.has_quads:
-        return "ERROR", "For quads; this mesh has none"
+        return "ERROR", n_("For quads; this mesh has none")
     if lattice == "TRIANGLES" and not facts.has_triangles:
-        return "INFO", "For triangles; this mesh has none"
+        return "INFO", n_("For triangles; this mesh has none")
     if is_on_cells(frame, stencil) and not (facts.has_quads or facts.has_triangle_pairs):
-        return "ERROR", "Needs quads or pairs of triangles"
+        return "ERROR", n_("Needs quads or pairs of triangles")
     return None
 
 
@@ -131,9 +133,9 @@ def unfit_frames(facts: MeshFacts) -> list[str]:
     """Say which kinds of frames do not fit a mesh, and why, a line each."""
     lines = []
     if not facts.has_quads:
-        lines.append("Not for this mesh: frames for quads")
+        lines.append(n_("Not for this mesh: frames for quads"))
     if not facts.has_triangles:
-        lines.append("Not for this mesh: frames for triangles")
+        lines.append(n_("Not for this mesh: frames for triangles"))
     return lines
 
 

@@ -3,19 +3,22 @@
 """Registers the operators, the pointers to their data, and the command line."""
 
 import bpy
-from bpy.app.handlers import load_pre, persistent
 from bpy.utils import register_classes_factory
 
-from . import mesh_facts
+from . import handlers, mesh_facts
 from .add_noise import OBJECT_OT_framelet_add_noise
 from .analyze import OBJECT_OT_framelet_analyze, OBJECT_OT_framelet_clear
 from .band_settings import FrameletBands, FrameletEqualizer
+from .before_after import OBJECT_OT_framelet_before_after
 from .command_line import blender_command
 from .compare import OBJECT_OT_framelet_compare
-from .denoise import OBJECT_OT_framelet_denoise
+from .denoise import OBJECT_OT_framelet_cancel, OBJECT_OT_framelet_denoise
 from .equalize import OBJECT_OT_framelet_equalize
 from .estimate_noise import OBJECT_OT_framelet_estimate_noise
-from .preparations import forget_preparations
+from .heat_map import OBJECT_OT_framelet_heat_map, OBJECT_OT_framelet_hide_colors
+from .heat_settings import FrameletHeatMap
+from .presets import OBJECT_OT_framelet_preset_add
+from .preview import OBJECT_OT_framelet_apply_preview, OBJECT_OT_framelet_preview
 from .report import (
     FrameletBandRange,
     FrameletComparison,
@@ -36,7 +39,11 @@ classes = (
     FrameletBandRange,
     FrameletBands,
     FrameletEqualizer,
+    FrameletHeatMap,
     OBJECT_OT_framelet_denoise,
+    OBJECT_OT_framelet_cancel,
+    OBJECT_OT_framelet_preview,
+    OBJECT_OT_framelet_apply_preview,
     OBJECT_OT_framelet_estimate_noise,
     OBJECT_OT_framelet_add_noise,
     OBJECT_OT_framelet_compare,
@@ -45,12 +52,17 @@ classes = (
     OBJECT_OT_framelet_synthesize,
     OBJECT_OT_framelet_clear,
     OBJECT_OT_framelet_equalize,
+    OBJECT_OT_framelet_before_after,
+    OBJECT_OT_framelet_heat_map,
+    OBJECT_OT_framelet_hide_colors,
+    OBJECT_OT_framelet_preset_add,
 )
 
 POINTERS = (
     (bpy.types.Scene, "framelet", FrameletSettings),
     (bpy.types.Scene, "framelet_bands", FrameletBands),
     (bpy.types.Scene, "framelet_equalizer", FrameletEqualizer),
+    (bpy.types.Scene, "framelet_heat_map", FrameletHeatMap),
     (bpy.types.WindowManager, "framelet_report", FrameletReport),
     (bpy.types.WindowManager, "framelet_estimate", FrameletEstimate),
     (bpy.types.WindowManager, "framelet_comparison", FrameletComparison),
@@ -61,26 +73,19 @@ POINTERS = (
 _register_classes, _unregister_classes = register_classes_factory(classes)
 
 
-@persistent
-def _free_memory(*_: object) -> None:
-    """Drop what was kept of the meshes of the file before."""
-    forget_preparations()
-
-
 def register() -> None:
     """Register the classes, the pointers to them and the command."""
     _register_classes()
     for owner, name, kind in POINTERS:
         setattr(owner, name, bpy.props.PointerProperty(type=kind))
-    load_pre.append(_free_memory)
+    handlers.register()
     blender_command.register()
 
 
 def unregister() -> None:
     """Take everything away in reverse order."""
     blender_command.unregister()
-    load_pre.remove(_free_memory)
-    forget_preparations()
+    handlers.unregister()
     for owner, name, _ in reversed(POINTERS):
         delattr(owner, name)
     mesh_facts.forget_facts()

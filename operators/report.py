@@ -21,6 +21,19 @@ def _edges(name: str, description: str) -> Any:
     return FloatProperty(name=name, description=description, precision=3)
 
 
+def _value(name: str, description: str) -> Any:
+    """Return the property of a number that colors stand for."""
+    more = "in scene units, or in degrees for angles"
+    return FloatProperty(name=name, description=f"{description}, {more}", precision=5)
+
+
+def _chosen(name: str) -> Any:
+    """Return the property of a setting that a run chose, in words."""
+    return StringProperty(
+        name=name, description="What the last run chose for this object; empty if it chose nothing"
+    )
+
+
 _SIGMA = "Standard deviation of the noise along the normals, in"
 _IMPULSIVE = "Some vertices are displaced much more than others; the noise is that of the quieter ones"
 
@@ -37,6 +50,11 @@ class FrameletNoise(bpy.types.PropertyGroup):
     recipe: StringProperty(
         name="Recipe", description="What automatic denoising chose; empty if it did not run"
     )
+    chosen_recipe: _chosen("Chosen")
+    chosen_frame: _chosen("Frame")
+    chosen_levels: _chosen("Levels")
+    chosen_lambda: _chosen("Smoothing λ")
+    chosen_mu: _chosen("Penalty μ")
 
 
 class FrameletEstimate(bpy.types.PropertyGroup):
@@ -66,6 +84,21 @@ class FrameletReport(bpy.types.PropertyGroup):
     flipped_faces: IntProperty(
         name="Flipped Faces", description="Faces that turned by more than a right angle"
     )
+    folded_faces: IntProperty(
+        name="Folded Faces", description="Faces that look against the faces around them"
+    )
+    folded_faces_before: IntProperty(
+        name="Folded Faces Before", description="Faces that looked against the faces around them before"
+    )
+    degenerate_faces: IntProperty(name="Degenerate", description="Faces next to without area")
+    degenerate_faces_before: IntProperty(
+        name="Degenerate Before", description="Faces next to without area before"
+    )
+    damped_vertices: IntProperty(name="Damped", description="Vertices that moved less, so that no face folds")
+    line_vertices: IntProperty(
+        name="On Lines", description="Vertices on sharp edges, which were smoothed along them only"
+    )
+    welded_vertices: IntProperty(name="Welded", description="Vertices that were welded to others for the run")
     is_closed: BoolProperty(
         name="Closed", description="All meshes are closed, so that their volumes are known"
     )
@@ -112,14 +145,16 @@ class FrameletComparison(bpy.types.PropertyGroup):
 
 
 class FrameletBandRange(bpy.types.PropertyGroup):
-    """What the vertex colors of a band mean."""
+    """What the colors of a band or a heat map mean."""
 
     names: StringProperty(name="Objects", description="The objects that are colored; empty if there are none")
     title: StringProperty(name="Band", description="What is shown")
+    quantity: StringProperty(name="Quantity", description="What a heat map shows; empty for bands")
     is_signed: BoolProperty(name="Signed", description="Values are components along the normals")
-    minimum: _length("Minimum", "The value with the first color, in scene units")
-    maximum: _length("Maximum", "The value with the last color, in scene units")
-    largest: _length("Largest", "Largest magnitude of all values, in scene units")
+    is_angle: BoolProperty(name="Angle", description="Values are angles in degrees instead of lengths")
+    minimum: _value("Minimum", "The value with the first color")
+    maximum: _value("Maximum", "The value with the last color")
+    largest: _value("Largest", "Largest magnitude of all values")
     share: FloatProperty(
         name="Within", description="Share of the vertices within the range", subtype="PERCENTAGE"
     )

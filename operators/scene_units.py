@@ -4,11 +4,13 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
-import bpy
-
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import bpy
     import numpy as np
     from numpy.typing import NDArray
 
@@ -25,12 +27,19 @@ def linear_part(obj: bpy.types.Object) -> NDArray[np.float64]:
 def displacement_in_scene(
     obj: bpy.types.Object, before: NDArray[np.floating], after: NDArray[np.floating]
 ) -> tuple[float, float]:
-    """Return how far the vertices of an object moved in the scene.
+    """Return how far the vertices of an object moved in the scene, as `displacement_by` does."""
+    return displacement_by(linear_part(obj), before, after)
+
+
+def displacement_by(
+    linear: NDArray[np.float64], before: NDArray[np.floating], after: NDArray[np.floating]
+) -> tuple[float, float]:
+    """Return how far vertices moved in the scene.
 
     Parameters
     ----------
-    obj : bpy.types.Object
-        Its scale counts, also where it differs between the axes.
+    linear : ndarray, shape (3, 3)
+        From `linear_part`; the scale counts, also where it differs between the axes.
     before, after : ndarray, shape (N, 3)
         Positions in object space.
 
@@ -42,23 +51,29 @@ def displacement_in_scene(
     import numpy as np
 
     moved = after.astype(np.float64) - before
-    squares = np.square(moved @ linear_part(obj).T).sum(axis=1)
+    squares = np.square(moved @ linear.T).sum(axis=1)
     return float(np.sqrt(squares.mean())), float(np.sqrt(squares.max()))
 
 
 def length_in_scene(obj: bpy.types.Object, length: float) -> float:
+    """Return a length of no particular direction in scene units, as `length_by` does."""
+    return length_by(linear_part(obj), length)
+
+
+def length_by(linear: NDArray[np.float64], length: float) -> float:
     """Return a length of no particular direction in scene units.
 
     Parameters
     ----------
-    obj : bpy.types.Object
-        Its scale counts; where it differs between the axes, as the root mean square over all directions.
+    linear : ndarray, shape (3, 3)
+        From `linear_part`; where the scale differs between the axes, the root mean square over all directions
+        counts.
     length : float
         In object space.
     """
     import numpy as np
 
-    return length * float(np.sqrt(np.square(linear_part(obj)).sum() / 3.0))
+    return length * float(np.sqrt(np.square(linear).sum() / 3.0))
 
 
 def surface_in_scene(obj: bpy.types.Object, surface: SurfaceMesh) -> SurfaceMesh:
@@ -73,12 +88,19 @@ def surface_in_scene(obj: bpy.types.Object, surface: SurfaceMesh) -> SurfaceMesh
 
 def noise_text(scene: bpy.types.Scene, sigma: float, sigma_edges: float, is_impulsive: bool) -> str:
     """Return the measured noise in words; `sigma` is in scene units."""
-    more = ", impulsive" if is_impulsive else ""
-    return f"{length_text(scene, sigma)} ({sigma_edges:.3f} edge lengths{more})"
+    from bpy.app.translations import pgettext_rpt as rpt_
+
+    if is_impulsive:
+        text = rpt_("{length} ({edges:.3f} edge lengths, impulsive)")
+    else:
+        text = rpt_("{length} ({edges:.3f} edge lengths)")
+    return text.format(length=length_text(scene, sigma), edges=sigma_edges)
 
 
 def length_text(scene: bpy.types.Scene, length: float) -> str:
     """Return a length in words, in the units that the scene shows."""
+    import bpy
+
     units = scene.unit_settings
     if units.system == "NONE":
         return f"{length:.4g}"
@@ -90,3 +112,33 @@ def length_text(scene: bpy.types.Scene, length: float) -> str:
         split_unit=False,
         compatible_unit=False,
     )
+
+
+def value_text(scene: bpy.types.Scene, value: float, is_angle: bool) -> str:
+    """Return what a color stands for in words: a length with its sign, or an angle in degrees."""
+    return value_texts(scene, [value], is_angle)[0]
+
+
+def value_texts(scene: bpy.types.Scene, values: Sequence[float], is_angle: bool) -> list[str]:
+    """Return lengths with their signs in words, all in the unit of the largest, or angles in degrees."""
+    unit, size = "°" if is_angle else "", 1.0
+    largest = max(map(abs, values))
+    if not is_angle:
+        unit, size = _unit_of(scene, largest)
+    # A true minus sign, as wide as a plus; and no zero has one.
+    return [f"{'−' if value < 0.0 else ''}{abs(value) / size:.4g}{unit}" for value in values]
+
+
+def _unit_of(scene: bpy.types.Scene, length: float) -> tuple[str, float]:
+    """Return the unit in which the scene shows a length, and its size in lengths of the scene.
+
+    Without units, and for lengths that are too small for any, that is no unit.
+    """
+    import bpy
+
+    units = scene.unit_settings
+    found = re.fullmatch(r"([\d.]+)(.*)", length_text(scene, length))
+    if units.system == "NONE" or found is None or (length and not float(found[1])):
+        return "", 1.0
+    unit = found[2]
+    return unit, bpy.utils.units.to_value(units.system, "LENGTH", f"1{unit}") / units.scale_length

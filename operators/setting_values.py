@@ -12,6 +12,7 @@ from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
 from ..core.settings import DEFAULT_PRESET, PRESETS, DenoiseSettings
+from .region_values import REGION_NAMES, as_typed
 
 if TYPE_CHECKING:
     import bpy
@@ -91,26 +92,40 @@ def to_settings(properties: Any) -> DenoiseSettings:
 
 def copy_settings(source: Any, target: Any) -> None:
     """Copy all properties of scene settings to an operator, so that the operator needs nothing else."""
-    target.preset = source.preset
-    fill(target, to_settings(source))
+    copy_values(source, target, ("preset", "output", *REGION_NAMES))
+    settings = to_settings(source)
+    for name in SETTING_NAMES:
+        write_quietly(target, name, getattr(settings, name))
 
 
 def copy_frame_settings(source: Any, target: Any, names: tuple[str, ...] = FRAME_NAMES) -> None:
     """Copy the settings of the frame transform from scene settings to an operator."""
     settings = to_settings(source)
     for name in names:
-        setattr(target, name, getattr(settings, name))
+        write_quietly(target, name, getattr(settings, name))
 
 
 def copy_values(source: Any, target: Any, names: tuple[str, ...]) -> None:
     """Copy properties by name, from scene properties to an operator."""
     for name in names:
-        setattr(target, name, getattr(source, name))
+        write_quietly(target, name, getattr(source, name))
 
 
-def as_typed(value: Any) -> Any:
-    """Return the number that was typed: properties hold single precision, 0.3 as 0.30000001."""
-    return float(f"{value:.7g}") if isinstance(value, float) else value
+def write_quietly(target: Any, name: str, value: Any) -> None:
+    """Write a property of an operator from a panel, without calling its update function.
+
+    Blender draws all windows again after an update, so that a panel that causes one is drawn forever.
+    """
+    if not hasattr(target, "bl_rna"):
+        setattr(target, name, value)
+        return
+    prop = target.bl_rna.properties[name]
+    if prop.type == "ENUM":
+        value = prop.enum_items[value].value
+    # Blender 5 keeps what its own properties hold apart from the custom ones.
+    is_apart = hasattr(target, "bl_system_properties_get")
+    store = target.bl_system_properties_get(do_create=True) if is_apart else target
+    store[name] = value
 
 
 def follow_preset(self: Any, _context: bpy.types.Context) -> None:

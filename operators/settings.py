@@ -9,6 +9,8 @@ from typing import Any
 import bpy
 
 from ..core.settings import DEFAULT_PRESET, PRESETS, DenoiseSettings, SettingInfo
+from .output_choices import IN_PLACE, OUTPUTS
+from .region_settings import RegionMixin
 from .setting_values import CUSTOM, DEFINING, FRAME_NAMES, follow_preset, leave_preset
 
 FIELDS = {item.name: item for item in fields(DenoiseSettings)}
@@ -28,6 +30,8 @@ _NUMBERED = {
         "BILATERAL",
         CUSTOM,
         "POSITIONS",
+        "MARCHING_CUBES",
+        "SCULPT",
     ),
     "method": ("POSITIONS", "NORMALS", "BILATERAL", "AUTO"),
 }
@@ -48,7 +52,7 @@ def _preset_property() -> Any:
     items.append((CUSTOM, "Custom", "Your own combination"))
     return bpy.props.EnumProperty(
         name="Preset",
-        description="A named algorithm; choosing one sets all values below",
+        description="What the mesh is or which algorithm to use; choosing one sets all values below",
         items=_items("preset", items),
         default=DEFAULT_PRESET,
         options=set(),
@@ -97,5 +101,17 @@ class LevelsMixin:
     __annotations__ = {"levels": setting_property(FIELDS["levels"])}
 
 
-class FrameletSettings(SettingsMixin, bpy.types.PropertyGroup):
+class OutputMixin:
+    """Where the result goes; for scene settings and operators. Not a part of presets."""
+
+    output: bpy.props.EnumProperty(
+        name="Output",
+        description="Where the denoised surface goes",
+        items=[tuple(choice) for choice in OUTPUTS],
+        default=IN_PLACE,
+        options=set(),
+    )
+
+
+class FrameletSettings(SettingsMixin, OutputMixin, RegionMixin, bpy.types.PropertyGroup):
     """The settings that the sidebar shows, stored with the scene."""

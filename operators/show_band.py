@@ -4,37 +4,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING
-
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
 
-from . import band_storage, targets
+from . import targets
 from .band_settings import ShowMixin, shown_names
-from .band_values import BandChoice, BandValues, ColorRange, choose_values, find_limit
+from .band_values import BandChoice, choose_values
+from .coloring import chosen_limit, color_objects
 from .filled_reports import fill_band_range
 from .scene_units import length_text
-from .setting_values import as_typed
 from .viewport import show_vertex_colors
-
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
-
-def color_objects(found: Sequence[BandValues], is_signed: bool, limit: float) -> ColorRange:
-    """Write the colors of values to the meshes of their objects, all with the same range."""
-    import numpy as np
-
-    from .colormaps import DIVERGING, SEQUENTIAL, map_colors
-
-    # Without any detail everything takes the color of zero.
-    scale = 1.0 / limit if limit > 0.0 else 0.0
-    colormap = DIVERGING if is_signed else SEQUENTIAL
-    for obj, values in found:
-        band_storage.write_colors(obj.data, map_colors(colormap, values * scale))
-    magnitudes = np.abs(np.concatenate([values for _, values in found]))
-    return ColorRange(limit, float(magnitudes.max()), float((magnitudes <= limit).mean()))
 
 
 class OBJECT_OT_framelet_show_band(ShowMixin, bpy.types.Operator):
@@ -47,10 +26,7 @@ class OBJECT_OT_framelet_show_band(ShowMixin, bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Ask for a selected mesh with bands, in Object Mode."""
-        reason = targets.band_poll_reason(context)
-        if reason is not None:
-            cls.poll_message_set(reason)
-        return reason is None
+        return targets.allows(cls, targets.band_poll_reason(context))
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Show, when adjusting the last operation, the properties that count."""
@@ -60,14 +36,6 @@ class OBJECT_OT_framelet_show_band(ShowMixin, bpy.types.Operator):
         for name in shown_names(self):
             layout.prop(self, name)
 
-    def _find_limit(self, values: Sequence[NDArray[np.floating]]) -> float:
-        """Return the value of the last color; raise ValueError if it was given as something else."""
-        if self.range_rule == "FIXED":
-            if not 0.0 <= self.limit < float("inf"):
-                raise ValueError(f"The range is {self.limit:g}; it must be a length.")
-            return as_typed(self.limit)
-        return find_limit(values, as_typed(self.percentile) if self.range_rule == "PERCENTILE" else 100.0)
-
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Choose the values of all targets, then color them with one range."""
         choice = BandChoice(self.content, self.level, self.band, self.component)
@@ -75,19 +43,25 @@ class OBJECT_OT_framelet_show_band(ShowMixin, bpy.types.Operator):
         if not done:
             return {"CANCELLED"}
         try:
-            limit = self._find_limit([values for _, values in done.values()])
+            limit = chosen_limit(self, [values for _, values in done.values()])
         except ValueError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         found = color_objects(list(done.values()), choice.is_signed, limit)
         show_vertex_colors(context)
         shown = context.window_manager.framelet_band_range
-        fill_band_range(shown, list(done), choice, found)
+        fill_band_range(shown, list(done), choice.title, found, is_signed=choice.is_signed)
         length = length_text(context.scene, found.limit)
         self.report(
             {"INFO"},
-            f"{choice.title} of {targets.names_text(list(done))}: colors from "
-            f"{f'-{length}' if choice.is_signed else '0'} to {length}, which {shown.share:.1f} % of the "
-            "vertices are within",
+            rpt_(
+                "{title} of {names}: colors from {lowest} to {highest}, {share:.1f} % of all are within"
+            ).format(
+                title=choice.title,
+                names=targets.names_text(list(done)),
+                lowest=f"−{length}" if choice.is_signed else "0",
+                highest=length,
+                share=shown.share,
+            ),
         )
         return {"FINISHED"}

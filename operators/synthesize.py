@@ -3,6 +3,7 @@
 """The operator that rebuilds meshes from their stored bands."""
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
 
 from . import targets
 from .bands import synthesize_object
@@ -20,10 +21,7 @@ class OBJECT_OT_framelet_synthesize(bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Ask for a selected mesh with bands, in Object Mode."""
-        reason = targets.band_poll_reason(context)
-        if reason is not None:
-            cls.poll_message_set(reason)
-        return reason is None
+        return targets.allows(cls, targets.band_poll_reason(context))
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Rebuild every target."""
@@ -36,7 +34,8 @@ class OBJECT_OT_framelet_synthesize(bpy.types.Operator):
         largest = max(maximum for _, maximum in done.values())
         self.report(
             {"INFO"},
-            f"Rebuilt {targets.names_text(list(done))}: vertices moved by up to "
-            f"{length_text(context.scene, largest)}",
+            rpt_("Rebuilt {names}: vertices moved by up to {length}").format(
+                names=targets.names_text(list(done)), length=length_text(context.scene, largest)
+            ),
         )
         return {"FINISHED"}

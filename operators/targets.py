@@ -8,8 +8,11 @@ from collections.abc import Callable
 from typing import TypeVar
 
 import bpy
+from bpy.app.translations import pgettext_n as n_
+from bpy.app.translations import pgettext_rpt as rpt_
 
 from .band_storage import has_note
+from .current_preview import end_preview
 
 Result = TypeVar("Result")
 Progress = Callable[[float, float], bool]
@@ -18,11 +21,11 @@ Progress = Callable[[float, float], bool]
 def poll_reason(context: bpy.types.Context, *, in_object_mode: bool = False) -> str | None:
     """Say why there is nothing to work on, or not in this mode; None if there is."""
     if in_object_mode and context.mode != "OBJECT":
-        return "Switch to Object Mode"
+        return n_("Switch to Object Mode")
     if context.mode not in {"OBJECT", "EDIT_MESH"}:
-        return "Switch to Object Mode, or to Edit Mode of a mesh"
+        return n_("Switch to Object Mode, or to Edit Mode of a mesh")
     if not target_objects(context):
-        return "Select at least one mesh object"
+        return n_("Select at least one mesh object")
     return None
 
 
@@ -30,8 +33,15 @@ def band_poll_reason(context: bpy.types.Context) -> str | None:
     """Say why there are no stored bands to work on; None if there are."""
     reason = poll_reason(context, in_object_mode=True)
     if reason is None and not any(has_note(obj.data) for obj in target_objects(context)):
-        return "Analyze a selected mesh first: none has stored bands"
+        return n_("Analyze a selected mesh first: none has stored bands")
     return reason
+
+
+def allows(operator: type[bpy.types.Operator], reason: str | None) -> bool:
+    """Return whether there is no reason against an operator; otherwise let its gray button say the reason."""
+    if reason is not None:
+        operator.poll_message_set(rpt_(reason))
+    return reason is None
 
 
 def target_objects(context: bpy.types.Context) -> list[bpy.types.Object]:
@@ -68,6 +78,7 @@ def run_on_targets(
     dict
         The results by object name; empty if nothing was done.
     """
+    end_preview()  # what it shows is not what the mesh is
     objects = target_objects(context)
     results: dict[str, Result] = {}
     failures: list[str] = []
@@ -93,4 +104,4 @@ def run_on_targets(
 
 def names_text(names: list[str]) -> str:
     """Return the names of objects for a line of text: one by name, several by number."""
-    return f"‘{names[0]}’" if len(names) == 1 else f"{len(names)} objects"
+    return f"‘{names[0]}’" if len(names) == 1 else rpt_("{number} objects").format(number=len(names))

@@ -4,6 +4,8 @@
 
 import bpy
 
+from . import band_storage
+
 
 def show_vertex_colors(context: bpy.types.Context) -> None:
     """Make the 3D View show vertex colors; if the mouse is elsewhere, all 3D Views of the screen."""
@@ -25,6 +27,14 @@ def hide_vertex_colors(context: bpy.types.Context) -> None:
             space.shading.color_type = shown.color_type
             space.shading.type = shown.shading_type
     shown.shading_type = shown.color_type = ""
+
+
+def hide_unused_colors(context: bpy.types.Context) -> None:
+    """Make 3D Views show what they showed before, once no mesh of the scene has colors of Framelet."""
+    meshes = [obj.data for obj in context.scene.objects if obj.type == "MESH"]
+    if not any(band_storage.has_colors(mesh) for mesh in meshes):
+        context.window_manager.framelet_band_range.names = ""
+        hide_vertex_colors(context)
 
 
 def _views(context: bpy.types.Context) -> list[bpy.types.SpaceView3D]:

@@ -1,21 +1,49 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What users see: panels and menu entries."""
+"""What users see: panels, menu entries and the legend."""
 
 from bpy.utils import register_classes_factory
 
-from . import menus, panel
+from . import (
+    band_panels,
+    legend,
+    menus,
+    output_panel,
+    panel,
+    preset_panel,
+    region_panel,
+    report_panels,
+    see_panel,
+    translations,
+)
 
-_register_classes, _unregister_classes = register_classes_factory(panel.classes)
+# Subpanels are shown in this order.
+classes = (
+    *preset_panel.classes,
+    panel.VIEW3D_PT_framelet,
+    *see_panel.classes,
+    *region_panel.classes,
+    *output_panel.classes,
+    *band_panels.classes,
+    panel.VIEW3D_PT_framelet_advanced,
+    *report_panels.classes,
+    *menus.classes,
+)
+
+_register_classes, _unregister_classes = register_classes_factory(classes)
 
 
 def register() -> None:
-    """Register the panels, then the menu entries."""
+    """Register the panels, then the menu entries and the legend."""
     _register_classes()
     menus.register()
+    legend.register()
+    translations.register()
 
 
 def unregister() -> None:
     """Take everything away in reverse order."""
+    translations.unregister()
+    legend.unregister()
     menus.unregister()
     _unregister_classes()

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import bpy
+from bpy.app.translations import pgettext_iface as iface_
 
 from ..operators import band_storage, mesh_facts
 from ..operators.analyze import OBJECT_OT_framelet_analyze, OBJECT_OT_framelet_clear
@@ -35,7 +36,7 @@ class VIEW3D_PT_framelet_bands(FrameletPanel, bpy.types.Panel):
             column.prop(scene.framelet, "levels")
         operator = layout.operator(OBJECT_OT_framelet_analyze.bl_idname, icon="MOD_MULTIRES")
         copy_frame_settings(scene.framelet, operator)
-        operator.max_megabytes = bands.max_megabytes
+        copy_values(bands, operator, ("max_megabytes",))
         obj = context.active_object
         n_bytes = _needed_bytes(scene, obj)
         column = settings_column(layout)
@@ -104,21 +105,22 @@ def _draw_stored(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
         column.label(text="No bands that can be read", icon="ERROR")
         return
     draw_value(column, "Stored", mesh_facts.frame_label(note.frame, note.stencil))
-    levels = "1 level" if note.levels == 1 else f"{note.levels} levels"
-    draw_value(column, "", f"{levels}, {sum(note.n_bands)} bands")
+    text = iface_("1 level, {bands} bands") if note.levels == 1 else iface_("{levels} levels, {bands} bands")
+    draw_value(column, "", text.format(levels=note.levels, bands=sum(note.n_bands)))
 
 
 def _draw_range(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bpy.types.Object) -> None:
     """Draw what the colors of an object mean, if that is known."""
     shown = context.window_manager.framelet_band_range
-    if obj.name not in shown.names.split(", ") or not band_storage.has_colors(obj.data):
+    is_shown = not shown.quantity and band_storage.COLORS in obj.data.attributes
+    if not is_shown or obj.name not in shown.names.split(", "):
         return
     column = layout.column(align=True)
     draw_value(column, "Colors", shown.title)
     lowest = f"−{length_text(context.scene, shown.maximum)}" if shown.is_signed else "0"
     draw_value(column, "Blue" if shown.is_signed else "Gray", lowest)
     draw_value(column, "Red" if shown.is_signed else "Violet", length_text(context.scene, shown.maximum))
-    draw_value(column, "Within", f"{shown.share:.1f} % of vertices")
+    draw_value(column, "Within", iface_("{:.1f} % of vertices").format(shown.share))
 
 
 classes = (VIEW3D_PT_framelet_bands, VIEW3D_PT_framelet_equalizer)

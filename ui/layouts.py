@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import bpy
+from bpy.app.translations import pgettext_iface as iface_
 
 from ..operators import mesh_facts
 from ..operators.scene_units import length_text
@@ -75,4 +76,4 @@ def draw_lengths(
 ) -> None:
     """Draw a length in scene units, and in edge lengths below it."""
     draw_value(layout, label, length_text(scene, length))
-    draw_value(layout, "", f"{edges:.3f} edge lengths")
+    draw_value(layout, "", iface_("{:.3f} edge lengths").format(edges))

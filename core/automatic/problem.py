@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ..blocks import Blocks
 from ..denoising.constraints import Constraints
-from ..memory import give_back
+from ..memory import MANY_ITEMS, give_back
 from ..normals.band_shrinkage import shrink_inside
 from ..normals.centroids import face_centroids
 from ..normals.face_averages import FaceAverages, face_averages
@@ -169,7 +169,8 @@ class NormalProblem:
         points = self.fitted(start.points, normals, PILOT_VERTEX_STEPS)
         noise = self._noise_in_normals(points, start.sample)
         fields = self.averages.inward_rows([*start.normals, *noise, *normals])
-        del self.fit  # made again quickly, and large when memory is needed most
+        if self.surface.n_faces >= MANY_ITEMS:
+            del self.fit  # made again quickly, and large when memory is needed most
         give_back(self.surface.n_faces)
         return fields
 

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,6 +34,10 @@ class Constraints:
             along = ((points[:, self.railed] - start) * self.rail).sum(axis=0)
             points[:, self.railed] = start + self.rail * along
         points[:, self.pinned] = origin[:, self.pinned]
+
+    def with_pinned(self, vertices: NDArray[np.integer]) -> Constraints:
+        """Return constraints that keep more vertices, shape (k,), where they are."""
+        return replace(self, pinned=np.union1d(self.pinned, vertices))
 
 
 @dataclass(frozen=True, eq=False)

@@ -4,26 +4,31 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from time import perf_counter
+from typing import Any
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from ..automatic.filter import automatic_filter
+from ..blocks import Blocks, Stopped
 from ..memory import check_memory, give_back
 from ..noise import NoiseEstimate, estimate_noise
 from ..normals.filter import normal_filter
+from ..region.finish import Finished, finish
+from ..region.lines import find_lines, smoothing_of
+from ..region.placed import Placed, place
+from ..region.region import Region
 from ..settings import DEFAULT_PRESET, PRESETS, DenoiseSettings
 from ..surface.connectivity import Connectivity
-from ..surface.face_changes import compare_faces
-from ..surface.normalization import displaced
 from ..surface.surface_mesh import SurfaceMesh
 from ..transform import choose_frame
 from .bilateral import bilateral_filter
 from .constraints import find_constraints
 from .preparation_cache import PreparationCache
 from .prepared import Prepared, prepare
-from .report import Callback, DenoiseReport, DenoiseResult
+from .report import Callback, DenoiseReport, DenoiseResult, stopped_report
 from .split_bregman import split_bregman
 from .tuning import tuned
 
@@ -33,8 +38,10 @@ def denoise(
     settings: DenoiseSettings | None = None,
     *,
     movable: NDArray[np.bool_] | None = None,
+    region: Region | None = None,
     connectivity: Connectivity | None = None,
     callback: Callback | None = None,
+    should_stop: Callable[[], bool] | None = None,
     dtype: DTypeLike = np.float32,
     prepared: Prepared | PreparationCache | None = None,
 ) -> DenoiseResult:
@@ -48,10 +55,15 @@ def denoise(
         The algorithm and its parameters; by default those of the preset AUTO.
     movable : ndarray, shape (N,), bool, optional
         Vertices that may move; all by default. The others are used but stay where they are.
+    region : Region, optional
+        Weights, feature lines and other limits; by default there are none, and folds are repaired.
     connectivity : Connectivity, optional
-        Neighborhoods of the mesh, if they are known already.
+        Neighborhoods of the mesh, if they are known already; not looked at if the region welds vertices.
     callback : callable, optional
         `callback(fraction, change) -> bool` after each iteration; see `report.Callback`.
+    should_stop : callable, optional
+        `should_stop() -> bool`, asked many times a second on the calling thread, also while the mesh is
+        prepared and the noise measured; True stops.
     dtype : dtype, optional
         Precision of the solver: float32 for speed, float64 for exactness.
     prepared : Prepared or PreparationCache, optional
@@ -61,14 +73,15 @@ def denoise(
     Returns
     -------
     DenoiseResult
-        Positions in the dtype of the input; vertices that did not move have the same bits.
+        Positions in the dtype of the input; vertices that did not move have the same bits. If `callback`
+        stopped the run they are what was reached, if `should_stop` did, the input.
 
     Raises
     ------
     ValueError
         In one sentence, if the mesh has no faces, no size or positions that are not finite, if `movable`
-        has the wrong shape or selects nothing, if `prepared` is for another mesh or other stencils, or if the
-        run needs more memory than there is.
+        has the wrong shape or selects nothing, if the region does not fit the mesh, if `prepared` is for
+        another mesh or other stencils, or if the run needs more memory than there is.
 
     Notes
     -----
@@ -80,21 +93,55 @@ def denoise(
     settings = settings or PRESETS[DEFAULT_PRESET].settings
     if movable is not None:
         _check_movable(movable, surface.n_vertices)
+    region = region or Region()
+    placed = place(region, surface, movable)
     dtype = np.dtype(dtype)
     check_memory(surface.n_vertices, surface.n_corners, settings)
+    try:
+        return _denoise(placed, settings, region, connectivity, callback, should_stop, dtype, prepared, began)
+    except Stopped:
+        return DenoiseResult(
+            surface.vertices.copy(), stopped_report(surface, settings, perf_counter() - began)
+        )
+
+
+def _denoise(
+    placed: Placed,
+    settings: DenoiseSettings,
+    region: Region,
+    connectivity: Connectivity | None,
+    callback: Callback | None,
+    should_stop: Callable[[], bool] | None,
+    dtype: np.dtype,
+    prepared: Prepared | PreparationCache | None,
+    began: float,
+) -> DenoiseResult:
+    """Denoise with checked arguments; raises `Stopped` where `should_stop` says so."""
+    surface = placed.surface
+    if placed.weld is not None:
+        connectivity = None
     if isinstance(prepared, PreparationCache):
-        prepared = prepared.prepare(surface, settings, dtype)
+        prepared = prepared.prepare(surface, settings, dtype, should_stop)
     elif prepared is None:
-        prepared = prepare(surface, settings, connectivity=connectivity, dtype=dtype)
+        prepared = prepare(surface, settings, connectivity=connectivity, dtype=dtype, should_stop=should_stop)
     elif not prepared.fits(surface, settings, dtype):
         raise ValueError("This was prepared for another mesh or other stencils; prepare it again.")
     give_back(surface.n_vertices)
-    ordered, noisy, reordering = prepared.ordered, prepared.noisy, prepared.reordering
-    connectivity = prepared.connectivity
-    if movable is not None and reordering is not None:
-        movable = movable[reordering.vertex_order]
-    with prepared.blocks.with_threads(settings.threads) as blocks:
-        constraints = find_constraints(ordered, connectivity, settings, movable, dtype, prepared.corners)
+    ordered, noisy, connectivity = prepared.ordered, prepared.noisy, prepared.connectivity
+    placed = placed.renumbered(prepared.reordering)
+    with prepared.blocks.with_threads(settings.threads).stopped_by(should_stop) as blocks:
+        constraints = find_constraints(
+            ordered, connectivity, settings, placed.movable, dtype, prepared.corners
+        )
+        n_line_vertices = 0
+        if placed.feature_edges is not None:
+            lines = find_lines(noisy, placed.feature_edges, constraints.pinned)
+            noisy = noisy.copy()
+            noisy[:, lines.inner] += smoothing_of(prepared.noisy, lines, _line_strength(settings)).astype(
+                dtype
+            )
+            constraints = constraints.with_pinned(lines.vertices)
+            n_line_vertices = len(lines.vertices)
         noise: NoiseEstimate | None = None
         recipe = ""
         if settings.method == "POSITIONS" and settings.tuning == "NOISE":
@@ -116,11 +163,36 @@ def denoise(
             assert prepared.transform is not None
             solved = split_bregman(noisy, prepared.transform, settings, constraints, blocks, callback)
         points, iterations, is_stopped = solved
-        vertices = displaced(ordered.vertices, points, noisy, prepared.edge, blocks)
+        motion = points.astype(np.float64)
+        motion -= prepared.noisy
+        motion *= prepared.edge
+        carrier = placed.carrier(connectivity, prepared.edge)
+        finished = finish(motion, carrier, region, placed.movable, placed.weights, constraints.pinned, blocks)
+        vertices = placed.in_given_order(finished.vertices)
         report = _report(
-            prepared, vertices, iterations, is_stopped, began, settings=settings, noise=noise, recipe=recipe
+            placed.original,
+            vertices,
+            finished,
+            blocks,
+            iterations=iterations,
+            is_stopped=is_stopped,
+            began=began,
+            settings=settings,
+            noise=noise,
+            recipe=recipe,
+            line_vertices=n_line_vertices,
+            welded_vertices=0 if placed.weld is None else placed.weld.n_merged,
         )
-    return DenoiseResult(vertices if reordering is None else reordering.vertices_back(vertices), report)
+    return DenoiseResult(vertices, report)
+
+
+def _line_strength(settings: DenoiseSettings) -> float:
+    """Return how much of the noise on feature lines is removed: nothing where nothing else is."""
+    if settings.method == "AUTO":
+        return settings.strength
+    if settings.method == "POSITIONS" and settings.tuning == "GIVEN" and settings.lambda_ == 0.0:
+        return 0.0
+    return 1.0
 
 
 def _check_movable(movable: NDArray[np.bool_], n_vertices: int) -> None:
@@ -135,18 +207,17 @@ def _check_movable(movable: NDArray[np.bool_], n_vertices: int) -> None:
 
 
 def _report(
-    prepared: Prepared,
+    surface: SurfaceMesh,
     vertices: NDArray[np.floating],
-    iterations: int,
-    is_stopped: bool,
-    began: float,
+    finished: Finished,
+    blocks: Blocks,
     *,
-    settings: DenoiseSettings,
-    noise: NoiseEstimate | None,
-    recipe: str,
+    began: float,
+    **known: Any,
 ) -> DenoiseReport:
-    """Account for a finished run."""
-    surface, connectivity, blocks = prepared.ordered, prepared.connectivity, prepared.blocks
+    """Account for a finished run; `known` are fields of the report."""
+    watch = finished.watch
+    connectivity = watch.carrier.connectivity
 
     def measure(start: int, stop: int) -> tuple[int, float, float]:
         moved = vertices[start:stop].astype(np.float64) - surface.vertices[start:stop]
@@ -155,27 +226,27 @@ def _report(
         return int(np.count_nonzero(squares)), float(squares.sum()), float(squares.max())
 
     n_moved, squares, largest = zip(*blocks.run(measure, surface.n_vertices), strict=True)
-    changes = compare_faces(surface, surface.with_vertices(vertices), blocks)
     volume_change = None
-    if connectivity.is_closed and changes.volume_before:
-        volume_change = (changes.volume_after - changes.volume_before) / changes.volume_before
+    if connectivity.is_closed and watch.volume_before:
+        volume_change = (watch.volume - watch.volume_before) / watch.volume_before
     return DenoiseReport(
         n_vertices=surface.n_vertices,
         n_faces=surface.n_faces,
         n_moved=sum(n_moved),
-        iterations=iterations,
-        is_stopped=is_stopped,
-        mean_edge_length=prepared.edge,
+        mean_edge_length=watch.carrier.edge,
         displacement_rms=float(np.sqrt(sum(squares) / surface.n_vertices)),
         displacement_max=float(np.sqrt(max(largest))),
-        flipped_faces=changes.n_flipped,
+        flipped_faces=watch.n_turned,
+        folded_faces=int(watch.is_folded.sum()),
+        folded_faces_before=int(watch.was_folded.sum()),
+        degenerate_faces=int(watch.is_degenerate.sum()),
+        degenerate_faces_before=int(watch.was_degenerate.sum()),
+        damped_vertices=finished.n_damped,
         volume_change=volume_change,
         irregular_vertices=int(connectivity.is_irregular().sum()),
         boundary_vertices=int(connectivity.is_boundary.sum()),
         non_manifold_vertices=int(connectivity.is_non_manifold.sum()),
         loose_vertices=int(connectivity.is_loose.sum()),
         seconds=perf_counter() - began,
-        settings=settings,
-        noise=noise,
-        recipe=recipe,
+        **known,
     )

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import fields, is_dataclass
 from typing import Any
 
@@ -38,14 +39,18 @@ class PreparationCache:
         return len(self._kept)
 
     def prepare(
-        self, surface: SurfaceMesh, settings: DenoiseSettings, dtype: DTypeLike = np.float32
+        self,
+        surface: SurfaceMesh,
+        settings: DenoiseSettings,
+        dtype: DTypeLike = np.float32,
+        should_stop: Callable[[], bool] | None = None,
     ) -> Prepared:
         """Return what `core.denoising.prepared.prepare` returns, made anew only as far as it has to be.
 
         The arrays of the mesh are kept, and must not be changed afterwards.
         """
         previous = next((kept for kept in reversed(self._kept) if kept.has_topology_of(surface)), None)
-        prepared = prepare(surface, settings, dtype=dtype, previous=previous)
+        prepared = prepare(surface, settings, dtype=dtype, previous=previous, should_stop=should_stop)
         # One for each topology: the old one would only serve if its positions came back.
         self._kept = [kept for kept in self._kept if kept is not previous]
         self._kept.append(prepared)

@@ -7,6 +7,7 @@ It depends on the mesh and on the settings that choose the stencils, not on λ, 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, fields
 from typing import Any
 
@@ -88,6 +89,7 @@ def prepare(
     connectivity: Connectivity | None = None,
     dtype: DTypeLike = np.float32,
     previous: Prepared | None = None,
+    should_stop: Callable[[], bool] | None = None,
 ) -> Prepared:
     """Do all of a run that does not depend on λ, μ, δ, iterations, tolerance and movable vertices.
 
@@ -104,6 +106,8 @@ def prepare(
     previous : Prepared, optional
         What was prepared before. If it is for the same mesh and the same stencils it is returned; if only the
         faces are the same, its neighborhoods are used.
+    should_stop : callable, optional
+        Asked many times; returns True to stop.
 
     Returns
     -------
@@ -111,6 +115,8 @@ def prepare(
 
     Raises
     ------
+    Stopped
+        If it was asked to stop.
     ValueError
         In one sentence, if the mesh has no faces, no size or positions that are not finite, or if the frame
         does not fit it.
@@ -124,7 +130,7 @@ def prepare(
         if reordering is not None:
             reordering = reordering.with_vertices(surface.vertices)
     blocks = Blocks(settings.threads)
-    with blocks:
+    with blocks.stopped_by(should_stop):
         check_positions(surface)  # while its vertices have the numbers that the caller knows
         if connectivity is None and is_scattered(surface):
             reordering = reorder(surface, spatial_order(surface.vertices), blocks)

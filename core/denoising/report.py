@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ..noise import NoiseEstimate
 from ..settings import DenoiseSettings
+from ..surface.surface_mesh import SurfaceMesh
 
 Callback = Callable[[float, float], bool]
 """`callback(fraction, change)`: share of the work done, 0 to 1, and rms motion of the last iteration in mean
@@ -29,12 +30,12 @@ class DenoiseReport:
     iterations: int
     """Iterations that ran, fewer than asked for if the tolerance was met or the run was stopped."""
     is_stopped: bool
-    """True if the callback stopped the run."""
+    """True if the run was stopped from outside."""
     mean_edge_length: float
     displacement_rms: float
     displacement_max: float
     flipped_faces: int
-    """Faces whose normal turned by more than a right angle."""
+    """Faces whose normal turned by more than a right angle, as where a fold or a spike was smoothed out."""
     volume_change: float | None
     """(after - before) / before; None unless the mesh is closed."""
     irregular_vertices: int
@@ -50,6 +51,18 @@ class DenoiseReport:
     """The measured noise, if the method or the parameters needed it."""
     recipe: str = ""
     """With the method AUTO, the label of the recipe that was chosen."""
+    folded_faces: int = 0
+    folded_faces_before: int = 0
+    """Faces that look against the faces around them, see `FaceWatch`, in the result and in the input."""
+    degenerate_faces: int = 0
+    degenerate_faces_before: int = 0
+    """Faces next to without area, in the result and in the input."""
+    damped_vertices: int = 0
+    """Vertices that moved less than they would have, so that no face folds."""
+    line_vertices: int = 0
+    """Vertices on feature lines, those that stay included."""
+    welded_vertices: int = 0
+    """Vertices that were welded to others for the run."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,3 +71,25 @@ class DenoiseResult:
 
     vertices: NDArray[np.floating]
     report: DenoiseReport
+
+
+def stopped_report(surface: SurfaceMesh, settings: DenoiseSettings, seconds: float) -> DenoiseReport:
+    """Return the report of a run that was stopped before anything was known: nothing moved."""
+    return DenoiseReport(
+        n_vertices=surface.n_vertices,
+        n_faces=surface.n_faces,
+        n_moved=0,
+        iterations=0,
+        is_stopped=True,
+        mean_edge_length=0.0,
+        displacement_rms=0.0,
+        displacement_max=0.0,
+        flipped_faces=0,
+        volume_change=None,
+        irregular_vertices=0,
+        boundary_vertices=0,
+        non_manifold_vertices=0,
+        loose_vertices=0,
+        seconds=seconds,
+        settings=settings,
+    )

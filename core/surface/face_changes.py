@@ -44,7 +44,7 @@ def compare_faces(before: SurfaceMesh, after: SurfaceMesh, blocks: Blocks | None
     def kernel(start: int, stop: int) -> tuple[int, float, float]:
         areas = [area_rows(points, before, start, stop) for points in rows]
         volumes = [
-            float((_face_tips(points, before, start, stop) * area).sum()) / 3.0
+            float((face_tips(points, before, start, stop) * area).sum()) / 3.0
             for points, area in zip(rows, areas, strict=True)
         ]
         np.multiply(areas[0], areas[1], out=areas[0])
@@ -57,7 +57,7 @@ def compare_faces(before: SurfaceMesh, after: SurfaceMesh, blocks: Blocks | None
     )
 
 
-def _face_tips(
+def face_tips(
     points: NDArray[np.float64], surface: SurfaceMesh, start: int, stop: int
 ) -> NDArray[np.float64]:
     """Return a point of each of the faces start to stop, shape (3, n).

@@ -54,12 +54,12 @@ def add_setting_options(parser: argparse.ArgumentParser) -> None:
     numbers = parser.add_argument_group("numbers", "Lengths are in mean edge lengths of the mesh.")
     algorithm.add_argument(
         "--preset",
-        type=_choice_type(PRESETS),
-        metavar=_choice_list(PRESETS),
+        type=choice_type(PRESETS),
+        metavar=choice_list(PRESETS),
         default=DEFAULT_PRESET,
         help=_escaped(
             f"Start from these settings; other options override them (default: {as_word(DEFAULT_PRESET)})"
-            + _describe((key, preset.description) for key, preset in PRESETS.items())
+            + describe_choices((key, preset.description) for key, preset in PRESETS.items())
         ),
     )
     for item in fields(DenoiseSettings):
@@ -127,7 +127,7 @@ def _value_type(item: Field) -> Callable[[str], Any]:
     """Return the function that reads the value of a field and checks it."""
     info: SettingInfo = item.metadata["info"]
     if info.choices:
-        return _choice_type([choice.identifier for choice in info.choices])
+        return choice_type([choice.identifier for choice in info.choices])
     read, wanted = (int, "a whole number") if item.type == "int" else (float, "a number")
 
     def value_of(text: str) -> int | float:
@@ -144,7 +144,7 @@ def _value_type(item: Field) -> Callable[[str], Any]:
     return value_of
 
 
-def _choice_type(identifiers: Iterable[str]) -> Callable[[str], str]:
+def choice_type(identifiers: Iterable[str]) -> Callable[[str], str]:
     """Return a function that reads one of some identifiers, in any case, with dashes or underscores."""
     names = tuple(identifiers)
 
@@ -162,11 +162,11 @@ def _metavar(item: Field) -> str:
     """Return what stands for the value in the help text."""
     info: SettingInfo = item.metadata["info"]
     if info.choices:
-        return _choice_list(choice.identifier for choice in info.choices)
+        return choice_list(choice.identifier for choice in info.choices)
     return "N" if item.type == "int" else "X"
 
 
-def _choice_list(identifiers: Iterable[str]) -> str:
+def choice_list(identifiers: Iterable[str]) -> str:
     """Return the choices as argparse shows them, or a word for them if they are many."""
     choices = ",".join(as_word(identifier) for identifier in identifiers)
     return "{" + choices + "}" if len(choices) <= LONGEST_LIST else "NAME"
@@ -178,7 +178,7 @@ def _help(item: Field, default_text: str) -> str:
     text = f"{info.description} (default: {default_text})"
     if as_word(info.label) != option_name(item.name).lstrip("-"):
         text = f"{info.label} ({info.symbol}): {text}" if info.symbol else f"{info.label}: {text}"
-    return text + _describe((choice.identifier, choice.description) for choice in info.choices)
+    return text + describe_choices((choice.identifier, choice.description) for choice in info.choices)
 
 
 def _default_text(name: str) -> str:
@@ -200,7 +200,7 @@ def _shown(value: Any) -> str:
     return as_word(value) if isinstance(value, str) else f"{value:g}"
 
 
-def _describe(choices: Iterable[tuple[str, str]]) -> str:
+def describe_choices(choices: Iterable[tuple[str, str]]) -> str:
     """Return choices and their descriptions, a line each."""
     return "".join(f"\n- {as_word(identifier)}: {description}" for identifier, description in choices)
 

@@ -8,11 +8,22 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ...core.region_options import RegionOptions
 from ...core.settings import DenoiseSettings
-from .arguments import HelpFormatter, add_setting_options, settings_from
-from .file_types import check_source, file_type
+from ..output_choices import IN_PLACE, OUTPUTS
+from .arguments import (
+    HelpFormatter,
+    add_setting_options,
+    as_word,
+    choice_list,
+    choice_type,
+    describe_choices,
+    settings_from,
+)
+from .file_types import BLEND, check_source, file_type
 from .mesh_work import check_blender, count, describe_input, work_on_meshes
 from .messages import USAGE_ERROR, CommandError, Messages
+from .region_arguments import add_region_options, region_options_from
 from .staging import Staging, check_folder
 
 if TYPE_CHECKING:
@@ -48,7 +59,17 @@ def add_command(subparsers: argparse._SubParsersAction) -> None:
     files.add_argument(
         "--report", metavar="FILE.json", type=Path, help="write settings and measurements here"
     )
+    identifiers = [choice.identifier for choice in OUTPUTS]
+    files.add_argument(
+        "--output",
+        type=choice_type(identifiers),
+        metavar=choice_list(identifiers),
+        default=IN_PLACE,
+        help="where the denoised surface goes in a .blend file (default: in-place)"
+        + describe_choices((choice.identifier, choice.description) for choice in OUTPUTS),
+    )
     add_setting_options(parser)
+    add_region_options(parser)
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
     parser.set_defaults(run=run)
 
@@ -67,8 +88,13 @@ def run(arguments: argparse.Namespace) -> None:
         If it cannot be carried out; no file is then written or changed.
     """
     source, target, report = arguments.source, arguments.target, arguments.report
-    settings = settings_from(arguments)
+    settings, options = settings_from(arguments), region_options_from(arguments)
     _check_files(source, target, report)
+    output = arguments.output
+    if output != IN_PLACE and file_type(target) != BLEND:
+        raise CommandError(
+            f"--output {as_word(output)} needs a .blend file as OUT, but {target} is none.", USAGE_ERROR
+        )
     check_blender()
     from .exporting import export
     from .importing import opened
@@ -77,7 +103,7 @@ def run(arguments: argparse.Namespace) -> None:
     messages = Messages(arguments.quiet)
     with Staging() as staging, opened(source, messages) as surfaces:
         messages.say(describe_input(source, surfaces))
-        outcome = _denoise(source, surfaces, settings, messages)
+        outcome = _denoise(source, surfaces, settings, options, output, messages)
         export(surfaces.without(outcome.refused_objects), target, staging, messages)
         if report is not None:
             write_report(
@@ -86,6 +112,7 @@ def run(arguments: argparse.Namespace) -> None:
                 target=target,
                 preset=arguments.preset,
                 settings=settings,
+                options=options,
                 reports=[(obj.name, found) for obj, found in outcome.done],
                 skipped=[(obj.name, reason) for obj, reason in outcome.refusals],
             )
@@ -107,13 +134,20 @@ def _check_files(source: Path, target: Path, report: Path | None) -> None:
         check_folder(report)
 
 
-def _denoise(source: Path, surfaces: Surfaces, settings: DenoiseSettings, messages: Messages) -> Outcome:
+def _denoise(
+    source: Path,
+    surfaces: Surfaces,
+    settings: DenoiseSettings,
+    options: RegionOptions,
+    output: str,
+    messages: Messages,
+) -> Outcome:
     """Denoise each mesh and say what was done."""
     from ..denoise_object import denoise_object
 
     def work(obj: bpy.types.Object) -> DenoiseReport:
         with messages.progress(f"Denoising {obj.name}") as callback:
-            report = denoise_object(obj, settings, callback)
+            report = denoise_object(obj, settings, callback, output, options)
         for line in _describe_result(obj.name, report):
             messages.say(line)
         return report
@@ -134,8 +168,31 @@ def _describe_result(name: str, report: DenoiseReport) -> list[str]:
         f"  {count(report.flipped_faces, 'flipped face')}{volume}; vertices: "
         f"{report.irregular_vertices:,} irregular, {report.boundary_vertices:,} boundary, "
         f"{report.non_manifold_vertices:,} non-manifold, {report.loose_vertices:,} loose.",
+        *_describe_region(report),
         *lines,
     ]
+
+
+def _describe_region(report: DenoiseReport) -> list[str]:
+    """Say what folded, and what limits of the region did, if anything."""
+    parts = [
+        f"{count(now, noun)} ({before:,} before)"
+        for now, before, noun in (
+            (report.folded_faces, report.folded_faces_before, "folded face"),
+            (report.degenerate_faces, report.degenerate_faces_before, "degenerate face"),
+        )
+        if now or before
+    ]
+    parts += [
+        f"{number:,} vertices {what}"
+        for number, what in (
+            (report.damped_vertices, "damped against folds"),
+            (report.line_vertices, "on sharp edges"),
+            (report.welded_vertices, "welded"),
+        )
+        if number
+    ]
+    return [f"  {'; '.join(parts)}."] if parts else []
 
 
 def _describe_noise(report: DenoiseReport, noise: NoiseEstimate) -> str:

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from ...core.denoising.report import DenoiseReport
+from ...core.region_options import RegionOptions
 from ...core.settings import DenoiseSettings
 from .version import blender_version, framelet_version
 
@@ -23,6 +24,7 @@ def write_report(
     target: Path,
     preset: str,
     settings: DenoiseSettings,
+    options: RegionOptions,
     reports: Sequence[tuple[str, DenoiseReport]],
     skipped: Sequence[tuple[str, str]],
 ) -> None:
@@ -39,6 +41,8 @@ def write_report(
     settings : DenoiseSettings
         The settings asked for; their names in the file are those of the fields, so that
         ``DenoiseSettings(**report["settings"])`` gives them back.
+    options : RegionOptions
+        Where vertices could move and how far; under "region" in the file.
     reports : sequence of (str, DenoiseReport)
         For each object its name and report, with the settings used, the measured noise and what was chosen
         for it.
@@ -52,6 +56,7 @@ def write_report(
         "output": str(target),
         "preset": preset,
         "settings": asdict(settings),
+        "region": asdict(options),
         "objects": [{"name": name, **asdict(report)} for name, report in reports],
         "skipped": [{"name": name, "reason": reason} for name, reason in skipped],
     }

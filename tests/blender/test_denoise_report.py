@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from framelet.core import PRESETS, add_noise, denoise, estimate_noise
 from framelet.operators import mesh_bridge
-from framelet.operators.denoise_object import MeasuredReport
+from framelet.operators.denoise_job import MeasuredReport
 from framelet.operators.filled_reports import fill_report
 
 

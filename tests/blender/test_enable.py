@@ -8,7 +8,14 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-ALLOWED = {"core", "core.choices", "core.frame_catalog", "core.settings"}
+ALLOWED = {
+    "core",
+    "core.choices",
+    "core.frame_catalog",
+    "core.region_options",
+    "core.setting_info",
+    "core.settings",
+}
 PROGRAM = """
 import importlib.util, json, sys
 import bpy

@@ -5,65 +5,24 @@
 import re
 
 import bpy
+import framelet.ui
+import meshes
 import pytest
+from drawing import draw
 from framelet.core.settings import PRESETS
 from framelet.operators import band_settings, mesh_facts, setting_values
-from framelet.ui import band_panels, menus, panel
-
-
-class Layout:
-    """Records what a panel draws, checking that properties and operators exist."""
-
-    def __init__(self, record=None):
-        self.record = record or {"prop": [], "label": [], "operator": [], "icon": [], "grayed": []}
-        self.active = True
-
-    def row(self, **_options):
-        return Layout(self.record)
-
-    column = split = row
-
-    def separator(self):
-        pass
-
-    def prop(self, data, name, **_options):
-        assert name in data.bl_rna.properties
-        self.record["prop"].append(name)
-        if not self.active:
-            self.record["grayed"].append(name)
-
-    def prop_search(self, data, name, source, collection, **_options):
-        assert collection in source.bl_rna.properties
-        self.prop(data, name)
-
-    def label(self, text="", icon="NONE"):
-        self.record["label"].append(text)
-        if icon != "NONE":
-            self.record["icon"].append((text, icon))
-
-    def operator(self, idname, **_options):
-        group, name = idname.split(".")
-        assert getattr(bpy.types, f"{group.upper()}_OT_{name}").bl_rna
-        self.record["operator"].append(idname)
-        values = type("Values", (), {"preset": None})()
-        self.record["values"] = values
-        self.record[idname] = values
-        return values
-
-
-def draw(panel_class):
-    """Call a panel's draw with a recording layout."""
-    layout = Layout()
-    panel_class.draw(type("Panel", (), {"layout": layout})(), bpy.context)
-    return layout.record
+from framelet.ui import band_panels, panel, report_panels, see_panel
+from framelet.ui.layouts import FrameletPanel
 
 
 def test_panels_are_registered_in_one_tab():
-    for each in panel.classes:
+    panels = [each for each in framelet.ui.classes if issubclass(each, FrameletPanel)]
+    for each in panels:
         assert each.is_registered
         assert (each.bl_category, each.bl_region_type, each.bl_space_type) == ("Framelet", "UI", "VIEW_3D")
         assert each.bl_label
-    parents = [each for each in panel.classes if not hasattr(each, "bl_parent_id")]
+        assert each is panel.VIEW3D_PT_framelet or each.bl_options == {"DEFAULT_CLOSED"}
+    parents = [each for each in panels if not hasattr(each, "bl_parent_id")]
     assert parents == [panel.VIEW3D_PT_framelet]
 
 
@@ -81,25 +40,16 @@ def test_the_button_carries_the_scene_settings():
     scene_settings.preset = "TRI_1"
     scene_settings.mu = 4.0
     record = draw(panel.VIEW3D_PT_framelet)
-    assert record["operator"] == ["object.framelet_denoise", "object.framelet_estimate_noise"]
+    assert record["operator"] == ["object.framelet_denoise", "object.framelet_preview"]
     values = record["object.framelet_denoise"]
     assert (values.preset, values.mu) == ("TRI_1", 4.0)
 
 
-def test_menu_entries_carry_the_scene_settings():
-    bpy.context.scene.framelet.preset = "BILATERAL"
-    record = draw(type("Menu", (), {"draw": menus._draw_denoise}))
-    assert record["values"].preset == "BILATERAL"
-    for name in menus.MENU_NAMES:
-        drawers = getattr(bpy.types, name)._dyn_ui_initialize()
-        assert menus._draw_denoise in drawers
-
-
 def test_last_run_before_and_after():
-    assert draw(panel.VIEW3D_PT_framelet_last_run)["label"] == ["Nothing was denoised yet"]
+    assert draw(report_panels.VIEW3D_PT_framelet_last_run)["label"] == ["Nothing was denoised yet"]
     bpy.ops.mesh.primitive_monkey_add()
     bpy.ops.object.framelet_denoise()
-    labels = draw(panel.VIEW3D_PT_framelet_last_run)["label"]
+    labels = draw(report_panels.VIEW3D_PT_framelet_last_run)["label"]
     assert "Suzanne" in labels and "Open mesh" in labels
     assert re.fullmatch(r"[\d.]+ cm", labels[labels.index("RMS") + 1])
     assert re.fullmatch(r"\d+\.\d{3} edge lengths", labels[labels.index("RMS") + 3])
@@ -107,14 +57,43 @@ def test_last_run_before_and_after():
     assert labels[labels.index("Chosen") + 1] == recipe != ""
     assert re.fullmatch(r"[\d.]+ c?m", labels[labels.index("Noise") + 1])
     bpy.ops.object.framelet_denoise(preset="TRI_2")
-    labels = draw(panel.VIEW3D_PT_framelet_last_run)["label"]
+    labels = draw(report_panels.VIEW3D_PT_framelet_last_run)["label"]
     assert not {"Noise", "Chosen", "From Noise"} & set(labels)
+
+
+CHOSEN = ["Chosen", "Frame", "Levels", "Smoothing λ", "Penalty μ"]
+
+
+def table(labels):
+    """Return the rows of a table that was drawn as label, value, label, value."""
+    return dict(zip(labels[::2], labels[1::2], strict=True))
 
 
 def test_the_automatic_panel_is_calm():
     shown = draw(panel.VIEW3D_PT_framelet)
     assert shown["prop"] == ["preset", "method", "strength"]
-    assert shown["label"] == []
+    assert table(shown["label"]) == dict(zip(CHOSEN, ["At the next run", "–", "–", "–", "–"], strict=True))
+
+
+def test_the_automatic_panel_shows_grayed_what_the_run_chose():
+    bpy.ops.mesh.primitive_monkey_add()
+    bpy.ops.object.framelet_add_noise(sigma=0.1)
+    bpy.ops.object.framelet_denoise()
+    shown = draw(panel.VIEW3D_PT_framelet)
+    entry = bpy.context.window_manager.framelet_estimate.objects["Suzanne"]
+    rows = table(shown["label"])
+    assert [label for label in rows if label] == CHOSEN and shown["grayed"] == shown["label"]
+    assert bpy.context.window_manager.framelet_report.recipe.startswith(rows["Chosen"])
+    names = ("frame", "levels", "lambda", "mu")
+    assert [rows[label] for label in CHOSEN[1:]] == [
+        getattr(entry, f"chosen_{name}").partition("\n")[0] or "–" for name in names
+    ]
+    entry.chosen_recipe, entry.chosen_lambda = "Soft\nFlat and sharp", ""
+    labels = draw(panel.VIEW3D_PT_framelet)["label"]
+    assert labels[:4] == ["Chosen", "Soft", "", "Flat and sharp"]
+    assert labels[labels.index("Smoothing λ") + 1] == "–"
+    bpy.ops.mesh.primitive_cube_add()
+    assert table(draw(panel.VIEW3D_PT_framelet)["label"])["Chosen"] == "At the next run"
 
 
 @pytest.mark.parametrize("tuning", ["GIVEN", "NOISE"])
@@ -123,34 +102,47 @@ def test_what_comes_from_the_noise_is_grayed(tuning):
     settings.preset, settings.tuning = "POSITIONS", tuning
     record = draw(panel.VIEW3D_PT_framelet)
     assert record["prop"][:3] == ["preset", "method", "tuning"]
-    assert record["grayed"] == (["lambda_", "mu", "iterations"] if tuning == "NOISE" else [])
+    is_tuned = tuning == "NOISE"
+    grayed = ["lambda_", "mu", "Smoothing λ", "–", "Penalty μ", "–"]
+    assert record["grayed"] == (grayed if is_tuned else [])
+    assert ("iterations" in draw(panel.VIEW3D_PT_framelet_advanced)["grayed"]) == is_tuned
     settings.preset = "BILATERAL"
     settings.tuning = tuning
     assert draw(panel.VIEW3D_PT_framelet)["grayed"] == []
 
 
+def test_what_the_noise_gave_is_shown():
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=4)
+    bpy.ops.object.framelet_add_noise(sigma=0.2)
+    settings = bpy.context.scene.framelet
+    settings.preset, settings.tuning = "POSITIONS", "NOISE"
+    bpy.ops.object.framelet_denoise(preset="POSITIONS", tuning="NOISE")
+    rows = table(draw(panel.VIEW3D_PT_framelet)["label"])
+    given = bpy.context.window_manager.framelet_report.parameters
+    assert given == f"λ {rows['Smoothing λ']}, μ {rows['Penalty μ']}"
+
+
 def test_the_noise_of_the_active_object_is_shown_once_it_is_measured():
     bpy.ops.mesh.primitive_monkey_add()
     bpy.ops.object.framelet_add_noise(sigma=0.1)
-    assert draw(panel.VIEW3D_PT_framelet)["label"] == []
+    record = draw(report_panels.VIEW3D_PT_framelet_noise)
+    assert record["operator"] == ["object.framelet_estimate_noise"] and record["label"] == []
     bpy.ops.object.framelet_estimate_noise()
-    labels = draw(panel.VIEW3D_PT_framelet)["label"]
-    assert labels[0] == "Noise" and "Chosen" not in labels
+    labels = draw(report_panels.VIEW3D_PT_framelet_noise)["label"]
+    assert labels[0] == "Noise"
     assert re.fullmatch(r"[\d.]+ c?m", labels[1])
     assert re.fullmatch(r"\d\.\d{3} edge lengths", labels[3])
+    assert table(draw(panel.VIEW3D_PT_framelet)["label"])["Chosen"] == "At the next run"
     bpy.ops.object.framelet_denoise()
-    labels = draw(panel.VIEW3D_PT_framelet)["label"]
-    recipe = bpy.context.window_manager.framelet_report.recipe
-    assert labels[0] == "Noise Before" and labels[labels.index("Chosen") + 1] == recipe
+    assert draw(report_panels.VIEW3D_PT_framelet_noise)["label"][0] == "Noise Before"
     entry = bpy.context.window_manager.framelet_estimate.objects["Suzanne"]
     for is_impulsive in (True, False):
         entry.is_impulsive = is_impulsive
-        assert ("Impulsive" in draw(panel.VIEW3D_PT_framelet)["label"]) == is_impulsive
+        assert ("Impulsive" in draw(report_panels.VIEW3D_PT_framelet_noise)["label"]) == is_impulsive
     bpy.context.scene.framelet.preset = "TRI_2"
-    assert "Chosen" not in draw(panel.VIEW3D_PT_framelet)["label"]
-    bpy.context.scene.framelet.preset = "AUTO"
-    bpy.ops.mesh.primitive_cube_add()
     assert draw(panel.VIEW3D_PT_framelet)["label"] == []
+    bpy.ops.mesh.primitive_cube_add()
+    assert draw(report_panels.VIEW3D_PT_framelet_noise)["label"] == []
 
 
 def test_lengths_follow_the_units_of_the_scene():
@@ -158,7 +150,7 @@ def test_lengths_follow_the_units_of_the_scene():
     bpy.ops.object.framelet_denoise()
 
     def rms():
-        labels = draw(panel.VIEW3D_PT_framelet_last_run)["label"]
+        labels = draw(report_panels.VIEW3D_PT_framelet_last_run)["label"]
         return labels[labels.index("RMS") + 1]
 
     units = bpy.context.scene.unit_settings
@@ -176,13 +168,13 @@ def test_volume_of_closed_meshes_and_number_of_objects():
     bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=2)
     first.select_set(True)
     bpy.ops.object.framelet_denoise()
-    labels = draw(panel.VIEW3D_PT_framelet_last_run)["label"]
+    labels = draw(report_panels.VIEW3D_PT_framelet_last_run)["label"]
     assert labels[labels.index("Objects") + 1] == "2"
     assert re.fullmatch(r"-\d+\.\d{2} %", labels[labels.index("Volume") + 1])
 
 
 def test_try_it_before_and_after():
-    record = draw(panel.VIEW3D_PT_framelet_try_it)
+    record = draw(report_panels.VIEW3D_PT_framelet_try_it)
     assert record["operator"] == ["object.framelet_add_noise", "object.framelet_compare"]
     assert record["label"] == []
     bpy.ops.mesh.primitive_monkey_add()
@@ -191,7 +183,7 @@ def test_try_it_before_and_after():
     bpy.ops.object.framelet_add_noise()
     first.select_set(True)
     bpy.ops.object.framelet_compare()
-    labels = draw(panel.VIEW3D_PT_framelet_try_it)["label"]
+    labels = draw(report_panels.VIEW3D_PT_framelet_try_it)["label"]
     assert {"Suzanne", "Suzanne.001", "Mean Angle"} <= set(labels)
 
 
@@ -334,3 +326,39 @@ def test_advanced_says_which_frames_do_not_fit():
         assert shown == [(f"Not for this mesh: frames for {kind}", "INFO")]
     bpy.context.scene.framelet.method = "NORMALS"
     assert draw(panel.VIEW3D_PT_framelet_advanced)["icon"] == []
+
+
+def test_what_a_run_changed_is_shown_by_buttons_that_stay_pressed(make_object, rng):
+    name = "object.framelet_{}".format
+    obj = make_object(meshes.noisy(meshes.triangle_torus(), rng), "Torus")
+    record = draw(see_panel.VIEW3D_PT_framelet_see)
+    expected = [name("before_after"), name("heat_map"), name("heat_map")]
+    assert record["operator"] == expected and record["pressed"] == []
+    bpy.ops.object.framelet_denoise(preset="TRI_2")
+    for quantity, first in (("NORMAL", True), ("ANGLE", False)):
+        bpy.ops.object.framelet_heat_map(quantity=quantity)
+        record = draw(see_panel.VIEW3D_PT_framelet_see)
+        both = [name("hide_colors"), name("heat_map")] if first else [name("heat_map"), name("hide_colors")]
+        assert record["operator"] == [name("before_after"), *both]
+        assert record["pressed"] == [name("hide_colors")]
+        assert record[name("heat_map")].quantity == ("ANGLE" if first else "NORMAL")
+    obj.data.attributes.active_color_name = ""
+    assert draw(see_panel.VIEW3D_PT_framelet_see)["pressed"] == []
+    bpy.ops.mesh.primitive_cube_add()
+    assert draw(see_panel.VIEW3D_PT_framelet_see)["pressed"] == []
+
+
+@pytest.mark.parametrize("rule", ["PERCENTILE", "MAXIMUM", "FIXED"])
+def test_the_heat_map_takes_the_range_of_the_scene(make_object, rng, rule):
+    make_object(meshes.noisy(meshes.triangle_torus(), rng), "Torus")
+    bpy.ops.object.framelet_denoise(preset="TRI_2")
+    heat = bpy.context.scene.framelet_heat_map
+    heat.range_rule, heat.percentile, heat.limit = rule, 77.0, 0.5
+    more = {"PERCENTILE": ["percentile"], "MAXIMUM": [], "FIXED": ["limit"]}[rule]
+    record = draw(see_panel.VIEW3D_PT_framelet_see)
+    assert record["prop"] == ["range_rule", *more]
+    values = record["object.framelet_heat_map"]
+    assert (values.range_rule, values.percentile, values.limit) == (rule, 77.0, 0.5)
+    bpy.ops.object.framelet_heat_map(quantity="ANGLE")
+    more = ["limit_angle"] if rule == "FIXED" else more
+    assert draw(see_panel.VIEW3D_PT_framelet_see)["prop"] == ["range_rule", *more]

@@ -21,6 +21,9 @@ OPERATORS = (
     "framelet_synthesize",
     "framelet_clear",
     "framelet_equalize",
+    "framelet_before_after",
+    "framelet_heat_map",
+    "framelet_hide_colors",
 )
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -31,7 +34,7 @@ def traces():
     for owner in (bpy.types.Scene, bpy.types.WindowManager, bpy.types.Object, bpy.types.Mesh):
         found |= {f"{owner.__name__}.{name}" for name in dir(owner) if "framelet" in name}
     found |= {f"ops.{name}" for name in dir(bpy.ops.object) if "framelet" in name}
-    for name in menus.MENU_NAMES:
+    for name, _ in menus.ENTRIES:
         drawers = getattr(bpy.types, name)._dyn_ui_initialize()
         found |= {f"{name}.{drawer.__name__}" for drawer in drawers if "framelet" in drawer.__module__}
     return found
@@ -79,7 +82,7 @@ new = sorted(set(sys.modules) - before)
 package.unregister()
 core = [name for name in new if name.startswith("framelet.core")]
 names = [name.removeprefix("framelet.core").strip(".") for name in core]
-assert names == ["", "choices", "frame_catalog", "settings"], core
+assert names == ["", "choices", "frame_catalog", "region_options", "setting_info", "settings"], core
 assert "numpy" not in new, new
 """
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=120)

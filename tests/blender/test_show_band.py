@@ -174,9 +174,11 @@ def test_the_report_says_the_range(analyzed, capfd):
     bpy.ops.object.framelet_show_band()
     report = capfd.readouterr().out
     limit = f"{shown_range().maximum:.4g}"
-    assert f"Level 1, band 1 of ‘Torus’: colors from -{limit} to {limit}" in report
+    assert f"Level 1, band 1 of ‘Torus’: colors from −{limit} to {limit}, " in report
     bpy.ops.object.framelet_show_band(content="LEVEL")
-    assert re.search(r"Level 1 of ‘Torus’: colors from 0 to [\d.]+, which [\d.]+ %", capfd.readouterr().out)
+    assert re.search(
+        r"Level 1 of ‘Torus’: colors from 0 to [\d.]+, [\d.]+ % of all are within", capfd.readouterr().out
+    )
 
 
 def test_flat_parts_do_not_make_the_range_empty():

@@ -7,7 +7,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from checks import assert_same_bits, read_only
+from checks import AS_SOLVED, assert_same_bits, read_only
 from framelet.core import PRESETS, DenoiseSettings, SurfaceMesh, add_noise, blocks, compare, denoise
 from framelet.core.choices import METHODS
 from framelet.core.normals import pilot
@@ -63,7 +63,7 @@ def cube(n=CUBE_SIDE):
 
 
 def solved(mesh, preset):
-    return mesh.with_vertices(denoise(mesh, PRESETS[preset].settings).vertices)
+    return mesh.with_vertices(denoise(mesh, PRESETS[preset].settings, region=AS_SOLVED).vertices)
 
 
 def off_edges(mesh):

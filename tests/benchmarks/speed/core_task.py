@@ -28,7 +28,7 @@ STAGES = (
     (denoise_module, "normal_filter", "solve"),
     (denoise_module, "automatic_filter", "solve"),
     (denoise_module, "bilateral_filter", "solve"),
-    (denoise_module, "displaced", "report"),
+    (denoise_module, "finish", "report"),
     (denoise_module, "_report", "report"),
 )
 

@@ -184,7 +184,7 @@ def test_version(command):
         (["denoise", "a.ply", "b.ply", "--stencil", "round"], "'round' is not one of mean, straight"),
         (
             ["denoise", "a.ply", "b.ply", "--preset", "best"],
-            "'best' is not one of auto, positions, tri-1, tri-2",
+            "'best' is not one of auto, free-form, prismatic",
         ),
         (["denoise", "a.ply", "b.ply", "--frame", "haar"], "'haar' is not one of auto, box-spline-111"),
         (["denoise", "a.ply", "b.ply", "--levels", "0"], "Levels is 0; it must be between 1 and 6"),

@@ -151,3 +151,31 @@ def test_blend_in_which_no_mesh_can_be_denoised(fails, tmp_path):
     sentence = fails("denoise", tmp_path / "in.blend", tmp_path / "out.blend")
     assert "‘Wire’ has no faces" in sentence
     assert not (tmp_path / "out.blend").exists()
+
+
+@pytest.mark.parametrize("output", ["shape-key", "new-object"])
+def test_output_goes_where_the_option_says(command, blend, grid, tmp_path, output):
+    import bpy
+
+    target = tmp_path / "out.blend"
+    assert command("denoise", blend, target, "--preset", "tri-2", "--output", output).code == 0
+    open_file(target)
+    noisy = grid.vertices.astype(np.float32)
+    expected = denoise(SurfaceMesh.from_faces(noisy, grid.faces), PRESETS["TRI_2"].settings).vertices
+    surface = bpy.data.objects["Surface"]
+    assert np.array_equal(positions(surface.data), noisy)
+    if output == "shape-key":
+        key = surface.data.shape_keys.key_blocks["Denoised"]
+        assert key.value == 1.0
+        assert np.array_equal(np.array([point.co for point in key.data], np.float32), expected)
+    else:
+        new = bpy.data.objects["Surface.denoised"]
+        assert np.array_equal(positions(new.data), expected)
+        assert len([obj for obj in bpy.data.objects if obj.name.endswith(".denoised")]) == 2
+        assert bpy.data.objects["Twin"].data == surface.data
+
+
+def test_output_needs_a_blend_file(fails, blend, tmp_path):
+    sentence = fails("denoise", blend, tmp_path / "out.ply", "--output", "shape-key", code=2)
+    assert "--output shape-key needs a .blend file as OUT" in sentence
+    assert not (tmp_path / "out.ply").exists()

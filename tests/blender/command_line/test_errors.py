@@ -140,7 +140,7 @@ def test_failing_report_leaves_no_mesh(fails, source, unchanged, tmp_path, monke
 def test_interrupt(command, source, unchanged, tmp_path, monkeypatch):
     from framelet.operators import denoise_object
 
-    def interrupt(*arguments):
+    def interrupt(*_arguments, **_options):
         raise KeyboardInterrupt
 
     monkeypatch.setattr(denoise_object, "denoise_object", interrupt)

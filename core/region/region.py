@@ -1,0 +1,103 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where vertices may move, how far, and what is mended afterwards."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True, eq=False)
+class Region:
+    """Limits of a denoising run, for all methods.
+
+    Attributes
+    ----------
+    weights : ndarray, shape (N,), float, or None
+        Share of its motion that each vertex makes, from 0 to 1. Vertices with weight 0 are used but stay
+        where they are, bit for bit; None for 1 everywhere.
+    feature_edges : ndarray, shape (E, 2), int, or None
+        Edges, as pairs of vertices, that form feature lines: their vertices are smoothed along the line only,
+        see `lines.py`. Edges of a vertex with itself are left out.
+    max_displacement : float or None
+        Farthest that a vertex may move, in the unit of the mesh; None for no limit.
+    along_normals : bool
+        Whether vertices move along the normals of the denoised surface only.
+    keep_volume : bool
+        Whether a closed mesh keeps its volume; an open mesh has none to keep.
+    weld_distance : float or None
+        Vertices at most so far apart, in the unit of the mesh, are one vertex for the work, and move
+        together; 0 for those at the same place, None for no welding.
+    repair_folds : bool
+        Whether motions that fold faces are taken back.
+
+    Raises
+    ------
+    ValueError
+        On construction, in one sentence, if a value is out of range.
+    """
+
+    weights: NDArray[np.floating] | None = None
+    feature_edges: NDArray[np.integer] | None = None
+    max_displacement: float | None = None
+    along_normals: bool = False
+    keep_volume: bool = False
+    weld_distance: float | None = None
+    repair_folds: bool = True
+
+    def __post_init__(self) -> None:
+        if self.weights is not None:
+            _check_weights(np.asarray(self.weights))
+        if self.feature_edges is not None:
+            edges = np.asarray(self.feature_edges)
+            if edges.ndim != 2 or edges.shape[1] != 2 or not np.issubdtype(edges.dtype, np.integer):
+                raise ValueError(
+                    f"The feature edges are {edges.dtype} of shape {edges.shape}; expected whole numbers of "
+                    "shape (E, 2), two vertices for each edge."
+                )
+        _check_length("largest displacement", self.max_displacement)
+        _check_length("weld distance", self.weld_distance)
+
+    def check(self, n_vertices: int) -> None:
+        """Raise ValueError, in one sentence, unless this fits a mesh with so many vertices."""
+        if self.weights is not None:
+            if len(self.weights) != n_vertices:
+                raise ValueError(
+                    f"There are {len(self.weights)} weights for {n_vertices} vertices; give one for each."
+                )
+            if not np.any(self.weights):
+                raise ValueError("All weights are 0, so that no vertex may move; give some a larger weight.")
+        edges = self.feature_edges
+        if edges is not None and np.size(edges) and (np.min(edges) < 0 or np.max(edges) >= n_vertices):
+            wrong = int(np.min(edges)) if np.min(edges) < 0 else int(np.max(edges))
+            raise ValueError(
+                f"A feature edge names vertex {wrong}, but there are {n_vertices} vertices; take it out."
+            )
+
+
+def _check_weights(weights: NDArray) -> None:
+    """Raise ValueError unless these are numbers from 0 to 1, one for each vertex."""
+    if weights.ndim != 1 or not np.issubdtype(weights.dtype, np.floating):
+        raise ValueError(
+            f"The weights are {weights.dtype} of shape {weights.shape}; expected one real number a vertex."
+        )
+    is_wrong = ~((weights >= 0.0) & (weights <= 1.0))  # also refuses NaN
+    if is_wrong.any():
+        vertex = int(np.flatnonzero(is_wrong)[0])
+        raise ValueError(
+            f"The weight of vertex {vertex} is {weights[vertex]:g}; weights must be between 0 and 1."
+        )
+
+
+def _check_length(name: str, value: Any) -> None:
+    """Raise ValueError unless this is None or a length that is not negative."""
+    if value is None:
+        return
+    if not isinstance(value, int | float | np.integer | np.floating) or isinstance(value, bool):
+        raise ValueError(f"The {name} is {value!r}; it must be a number.")
+    if not 0.0 <= value < float("inf"):
+        raise ValueError(f"The {name} is {value:g}; it must be 0 or a positive number.")

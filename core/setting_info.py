@@ -1,0 +1,66 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What interfaces need to know about a setting, and how its values are checked."""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import dataclass, field
+from numbers import Integral, Real
+from typing import Any
+
+from .choices import Choice
+
+
+@dataclass(frozen=True)
+class SettingInfo:
+    """What a user interface needs to know about one setting.
+
+    `soft_maximum` is where a slider ends; typing may go up to `maximum`. `symbol` is the paper's letter.
+    `methods` are the methods that use the setting; empty for all. `unit` is LENGTH for lengths in the scene.
+    """
+
+    label: str
+    description: str
+    minimum: float | None = None
+    maximum: float | None = None
+    soft_maximum: float | None = None
+    choices: tuple[Choice, ...] = ()
+    symbol: str = ""
+    methods: tuple[str, ...] = ()
+    unit: str = ""
+
+    def has_effect(self, method: str) -> bool:
+        """Tell whether a method uses the setting."""
+        return not self.methods or method in self.methods
+
+
+def setting_field(default: Any, label: str, description: str, **info: Any) -> Any:
+    """Return the dataclass field of a setting; `info` are further fields of `SettingInfo`."""
+    return field(default=default, metadata={"info": SettingInfo(label, description, **info)})
+
+
+def check_value(info: SettingInfo, kind: str, value: Any) -> None:
+    """Raise ValueError, with the value, unless it is allowed for this setting.
+
+    `kind` is the type of the field: "int", "float", "bool" or "str".
+    """
+    label = f"{info.label} ({info.symbol})" if info.symbol else info.label
+    if info.choices:
+        names = [choice.identifier for choice in info.choices]
+        if value not in names:
+            raise ValueError(f"{label} is {value!r}; choose one of {', '.join(names)}.")
+        return
+    if kind in ("bool", "str"):
+        if type(value).__name__ != kind:
+            wanted = "True or False" if kind == "bool" else "a text"
+            raise ValueError(f"{label} is {value!r}; it must be {wanted}.")
+        return
+    is_number = isinstance(value, Integral if kind == "int" else Real)
+    if not is_number or type(value) is bool:
+        raise ValueError(f"{label} is {value!r}; it must be a {'whole ' if kind == 'int' else ''}number.")
+    assert info.minimum is not None and info.maximum is not None
+    if not info.minimum <= value <= info.maximum:  # also refuses NaN
+        is_huge = isinstance(value, int) and abs(value) > sys.float_info.max
+        shown = "a huge number" if is_huge else f"{value:g}"
+        raise ValueError(f"{label} is {shown}; it must be between {info.minimum:g} and {info.maximum:g}.")

@@ -1,0 +1,186 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
+"""Take the screenshots of the documents in a real window of Blender, at the scales 1x and 2x.
+
+    make screenshots
+
+It needs what the tests in `tests/gui` need; see `.ci/gui.py`. Names of pictures as arguments take only those.
+"""
+
+import os
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import NamedTuple
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests"))
+
+import numpy as np  # noqa: E402
+from blender_window.code import MONKEY  # noqa: E402
+from blender_window.pixels import write_png  # noqa: E402
+from blender_window.programs import NoWindow, find_programs  # noqa: E402
+from blender_window.session import Session  # noqa: E402
+from blender_window.sidebar import press, start_fresh  # noqa: E402
+
+IMAGES = ROOT / "docs" / "images"
+SIZES = {1: (1180, 920), 2: (2080, 1840)}
+N_COLORS = {1: 256, 2: 96}
+"""Of pictures by their scale, so that large ones take less than 300 kB."""
+
+PATIENCE = 300.0
+TEXT = 130
+"""What is brighter than this in a panel is text; the viewport behind the sidebar is darker."""
+
+MOVED = "positions('Monkey').tobytes() != before"
+
+
+class Shot(NamedTuple):
+    """A picture: its name, the subpanels that are open, what is done, what is cut out, and the scales.
+
+    `part` is a region of the viewport, AREA for the viewport with its sidebar, or WINDOW for all.
+    """
+
+    name: str
+    unfolded: tuple[str, ...]
+    act: Callable[[Session], None]
+    part: str = "AREA"
+    scales: tuple[int, ...] = (1,)
+    subdivisions: int = 2
+
+    def file(self, scale: float) -> str:
+        """Return the name of the file, without its ending."""
+        return self.name if scale == 1 else f"{self.name}_{scale:g}x"
+
+
+def rest(session: Session) -> None:
+    """Do nothing."""
+
+
+def denoise(session: Session, preset: str = "AUTO") -> None:
+    """Denoise by the button, and wait until it is done."""
+    session.run("bpy.context.scene.framelet.preset = preset", preset=preset)
+    session.settle(0.5)
+    session.run("before = positions('Monkey').tobytes()")
+    press(session, "object.framelet_denoise")
+    session.wait_for(MOVED, PATIENCE)
+    session.settle(1.0)
+
+
+def denoise_and_scroll(session: Session) -> None:
+    """Denoise, and scroll the sidebar to its end."""
+    denoise(session)
+    session.events(*[("WHEELDOWNMOUSE", "PRESS", session.middle("UI"), {})] * 40)
+
+
+def show_heat(session: Session) -> None:
+    """Denoise, and color by displacement."""
+    denoise(session)
+    press(session, "object.framelet_heat_map", seconds=1.0, across=0.25)
+
+
+def show_band(session: Session) -> None:
+    """Analyze, and color by a band."""
+    press(session, "object.framelet_analyze", seconds=2.0)
+    press(session, "object.framelet_show_band", seconds=1.0)
+
+
+def run_long(session: Session) -> None:
+    """Start a run that takes minutes, and stay in it."""
+    session.run("s = bpy.context.scene.framelet; s.preset = 'TRI_2'; s.iterations = 10000")
+    session.settle(0.5)
+    press(session, "object.framelet_denoise")
+    session.wait_for("bool(bpy.ops.object.framelet_cancel.poll())")
+    session.settle(12.0)
+
+
+def choose_tri_2(session: Session) -> None:
+    """Choose an engine with λ and μ."""
+    session.run("bpy.context.scene.framelet.preset = 'TRI_2'")
+
+
+def show_group(session: Session) -> None:
+    """Set some options of a region."""
+    session.run(
+        "bpy.data.objects['Monkey'].vertex_groups.new(name='Face')\n"
+        "s = bpy.context.scene.framelet; s.vertex_group = 'Face'; s.limit = 'EDGES'; s.keep_sharp = True"
+    )
+
+
+BOTH = (1, 2)
+SHOTS = (
+    Shot("window_start", (), rest),
+    Shot("window_denoised", ("last_run",), denoise),
+    Shot("window_heat_map", ("see",), show_heat, scales=BOTH),
+    Shot("window_bands", ("bands",), show_band, scales=BOTH),
+    Shot("window_cancel", (), run_long, "WINDOW", BOTH, 4),
+    Shot("panel", (), denoise, "UI", BOTH),
+    Shot("panel_tri_2", ("advanced",), choose_tri_2, "UI"),
+    Shot("panel_region", ("region", "output"), show_group, "UI"),
+    Shot("panel_equalizer", ("equalizer",), rest, "UI"),
+    Shot("panel_see", ("see",), show_heat, "UI"),
+    Shot("panel_last_run", ("last_run", "noise"), denoise_and_scroll, "UI"),
+    Shot("panel_try_it", ("try_it",), rest, "UI"),
+)
+
+
+def main() -> int:
+    """Take the pictures and return the exit code."""
+    try:
+        programs = find_programs()
+    except NoWindow as reason:
+        print(f"No screenshots: this {reason}.")
+        return 1
+    extension = Path(os.environ.get("FRAMELET_ZIP") or next((ROOT / "build").glob("framelet-*.zip")))
+    wanted = sys.argv[1:] or [shot.file(scale) for shot in SHOTS for scale in shot.scales]
+    for scale, size in SIZES.items():
+        shots = [shot for shot in SHOTS if scale in shot.scales and shot.file(scale) in wanted]
+        if not shots:
+            continue
+        session = Session(programs, extension, size, scale, overlap=True)
+        try:
+            for shot in shots:
+                take(session, shot)
+        finally:
+            session.close()
+    return 0
+
+
+def take(session: Session, shot: Shot) -> None:
+    """Take one picture."""
+    start_fresh(session, shot.unfolded)
+    session.run(MONKEY, subdivisions=shot.subdivisions)
+    session.settle(1.0)
+    shot.act(session)
+    session.move((5, 5))
+    session.settle(2.0)
+    picture = session.picture() if shot.part == "WINDOW" else cut(session, shot.part)
+    name = shot.file(session.scale)
+    write_png(IMAGES / f"{name}.png", picture, N_COLORS[int(session.scale)])
+    print(f"Wrote {name}.png to {IMAGES}.", flush=True)
+    if session.run("result = hasattr(bpy.types, 'OBJECT_OT_framelet_cancel')"):
+        session.run("if bpy.ops.object.framelet_cancel.poll(): bpy.ops.object.framelet_cancel()")
+        session.settle(0.5)
+
+
+def cut(session: Session, part: str) -> np.ndarray:
+    """Return the viewport with its sidebar, or the used part of the sidebar."""
+    code = "r = view3d() if part == 'AREA' else region(part)\nresult = [r.x, r.y, r.width, r.height]"
+    x, y, width, height = session.run(code, part=part)
+    picture = session.picture()
+    top = session.size[1] - y - height
+    picture = picture[top : top + height, x : x + width]
+    return trimmed(picture, session.scale) if part == "UI" else picture
+
+
+def trimmed(picture: np.ndarray, scale: float) -> np.ndarray:
+    """Return the sidebar without its tabs, down to its last line of text."""
+    left, right = int(8 * scale), picture.shape[1] - int(30 * scale)
+    is_text = (picture[:, left + int(20 * scale) : right].min(axis=2) > TEXT).any(axis=1)
+    bottom = int(np.flatnonzero(is_text)[-1]) + int(14 * scale)
+    return picture[:bottom, left:right]
+
+
+if __name__ == "__main__":
+    sys.exit(main())

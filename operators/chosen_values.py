@@ -1,0 +1,63 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a run chose by itself, in words that stand beside the names of the settings."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bpy.app.translations import pgettext_n as n_
+from bpy.app.translations import pgettext_rpt as rpt_
+
+if TYPE_CHECKING:
+    from ..core.automatic.recipes import Recipe
+    from ..core.denoising.report import DenoiseReport
+
+
+def chosen_texts(report: DenoiseReport) -> dict[str, str]:
+    """Return the settings that a run chose, by property of `FrameletNoise`; empty if it chose none.
+
+    Automatic denoising cleans normals with the pairwise frame between faces. Its λ is a multiple of what the
+    noise makes of the differences between neighboring faces, its levels are the bands of weighted averages.
+    Where it took a low-pass of positions instead, there are no λ and μ. Where it took the mean of two
+    recipes, there is a line for each.
+    """
+    settings = report.settings
+    if settings.method == "POSITIONS" and report.noise is not None:
+        return {"chosen_lambda": f"{settings.lambda_:.3g}", "chosen_mu": f"{settings.mu:.3g}"}
+    if settings.method != "AUTO":
+        return {}
+    from ..core.automatic.recipes import RECIPES
+
+    labels = report.recipe.split(" and ")
+    # "Flat and sharp" has the same word in it that stands between two recipes.
+    recipes = [recipe for recipe in RECIPES if _is_named(recipe.label.split(" and "), labels)]
+    texts = [_recipe_texts(recipe) for recipe in recipes]
+    names = texts[0] if texts else {}
+    lines = {name: "\n".join(dict.fromkeys(each[name] for each in texts if each[name])) for name in names}
+    return {"chosen_recipe": "\n".join(recipe.label for recipe in recipes) or report.recipe, **lines}
+
+
+def _is_named(words: list[str], labels: list[str]) -> bool:
+    """Tell whether words follow one another in a list."""
+    return any(labels[start : start + len(words)] == words for start in range(len(labels)))
+
+
+def _recipe_texts(recipe: Recipe) -> dict[str, str]:
+    """Return the words for one recipe."""
+    from ..core.normals.pilot import COUPLING
+
+    if not recipe.range_sigmas:
+        averages = rpt_("{number} averages").format(number=recipe.n_averages)
+        return {
+            "chosen_frame": n_("Low-pass"),
+            "chosen_levels": averages,
+            "chosen_lambda": "",
+            "chosen_mu": "",
+        }
+    return {
+        "chosen_frame": n_("Pairwise (normals)"),
+        "chosen_levels": str(recipe.n_bands),
+        "chosen_lambda": rpt_("{number} × noise").format(number=f"{recipe.threshold:g}"),
+        "chosen_mu": f"{COUPLING:g}",
+    }

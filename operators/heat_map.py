@@ -1,0 +1,152 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operators that show what the last run changed as colors, and take colors away."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from math import degrees
+from typing import TYPE_CHECKING, Any
+
+import bpy
+from bpy.app.translations import pgettext_n as n_
+from bpy.app.translations import pgettext_rpt as rpt_
+
+from . import band_storage, run_memory, targets
+from .coloring import chosen_limit, color_objects
+from .filled_reports import fill_band_range
+from .heat_settings import HeatMixin, shown_heat_names
+from .heat_values import QUANTITIES, heat_values
+from .scene_units import value_texts
+from .viewport import hide_unused_colors, show_vertex_colors
+
+if TYPE_CHECKING:
+    from .band_values import BandValues, ColorRange
+
+
+def show_heat(
+    context: bpy.types.Context, found: dict[str, BandValues], quantity: str, limit: float
+) -> ColorRange:
+    """Color the objects of values, by object name, and take down what the colors mean."""
+    kind = QUANTITIES[quantity]
+    colored = color_objects(
+        list(found.values()), kind.is_signed, limit, band_storage.HEAT_COLORS, kind.domain
+    )
+    fill_band_range(
+        context.window_manager.framelet_band_range,
+        list(found),
+        kind.title,
+        colored,
+        is_signed=kind.is_signed,
+        quantity=quantity,
+        is_angle=kind.is_angle,
+    )
+    return colored
+
+
+def refresh_heat(context: bpy.types.Context, objects: Iterable[bpy.types.Object]) -> None:
+    """Bring heat maps up to date after a run; the colors of objects that it did not treat stay.
+
+    Where that cannot be, as in Edit Mode, where attributes cannot be written, colors and legend are of the
+    run before, and the legend goes.
+    """
+    shown = context.window_manager.framelet_band_range
+    colored = [obj for obj in objects if band_storage.HEAT_COLORS in obj.data.attributes]
+    if shown.quantity not in QUANTITIES or not colored:
+        return
+    if any(obj.mode != "OBJECT" or not run_memory.is_remembered(obj) for obj in colored):
+        shown.names = ""
+        return
+    found = {obj.name: heat_values(obj, shown.quantity) for obj in colored}
+    limit = _heat_limit(context.scene.framelet_heat_map, found, shown.quantity)
+    show_heat(context, found, shown.quantity, limit)
+
+
+def _heat_limit(properties: Any, found: dict[str, BandValues], quantity: str) -> float:
+    """Return the value of the last color; raise ValueError if it was given as something else."""
+    values = [item.values for item in found.values()]
+    if not QUANTITIES[quantity].is_angle:
+        return chosen_limit(properties, values)
+    limit = chosen_limit(properties, values, "limit_angle")
+    return degrees(limit) if properties.range_rule == "FIXED" else limit
+
+
+class OBJECT_OT_framelet_heat_map(HeatMixin, bpy.types.Operator):
+    """Show as colors how far the last run moved the selected meshes, or how much it turned their faces"""
+
+    bl_idname = "object.framelet_heat_map"
+    bl_label = "Heat Map"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Ask for a selected mesh that was denoised, in Object Mode."""
+        reason = targets.poll_reason(context, in_object_mode=True)
+        if reason is None and not any(map(run_memory.is_remembered, targets.target_objects(context))):
+            reason = n_("Denoise a selected mesh first")
+        return targets.allows(cls, reason)
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        """Show, when adjusting the last operation, the properties that count."""
+        layout = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        for name in ("quantity", *shown_heat_names(self, self.quantity)):
+            layout.prop(self, name)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Find the values of all targets, then color them with one range."""
+        kind = QUANTITIES[self.quantity]
+        done = targets.run_on_targets(self, context, lambda obj, _progress: heat_values(obj, self.quantity))
+        if not done:
+            return {"CANCELLED"}
+        try:
+            limit = _heat_limit(self, done, self.quantity)
+        except ValueError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        found = show_heat(context, done, self.quantity, limit)
+        show_vertex_colors(context)
+        shown = context.window_manager.framelet_band_range
+        lowest, highest = value_texts(context.scene, [shown.minimum, limit], kind.is_angle)
+        self.report(
+            {"INFO"},
+            rpt_(
+                "{title} of {names}: colors from {lowest} to {highest}, {share:.1f} % of all are within"
+            ).format(
+                title=rpt_(kind.title),
+                names=targets.names_text(list(done)),
+                lowest=lowest,
+                highest=highest,
+                share=100.0 * found.share,
+            ),
+        )
+        return {"FINISHED"}
+
+
+class OBJECT_OT_framelet_hide_colors(bpy.types.Operator):
+    """Remove the colors of heat maps and bands from the selected meshes, and show what was shown before"""
+
+    bl_idname = "object.framelet_hide_colors"
+    bl_label = "Hide Colors"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Ask for a selected mesh with colors, in Object Mode."""
+        reason = targets.poll_reason(context, in_object_mode=True)
+        if reason is None and not any(
+            band_storage.has_colors(obj.data) for obj in targets.target_objects(context)
+        ):
+            reason = n_("The selected meshes have no colors of Framelet")
+        return targets.allows(cls, reason)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Take the colors of every target away."""
+        done = targets.run_on_targets(
+            self, context, lambda obj, _progress: band_storage.remove_object_colors(obj)
+        )
+        if not done:
+            return {"CANCELLED"}
+        hide_unused_colors(context)
+        return {"FINISHED"}

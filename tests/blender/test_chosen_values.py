@@ -1,0 +1,55 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a run chose, in words for the sidebar."""
+
+from itertools import permutations
+from types import SimpleNamespace
+
+import pytest
+from framelet.core import DenoiseSettings
+from framelet.core.automatic.filter import CLEAN
+from framelet.core.automatic.recipes import RECIPES
+from framelet.core.normals.pilot import COUPLING
+from framelet.operators.chosen_values import chosen_texts
+
+NAMES = ["chosen_recipe", "chosen_frame", "chosen_levels", "chosen_lambda", "chosen_mu"]
+
+
+def texts(recipe="", noise="measured", **settings):
+    report = SimpleNamespace(settings=DenoiseSettings(**settings), recipe=recipe, noise=noise)
+    return chosen_texts(report)
+
+
+@pytest.mark.parametrize("recipe", RECIPES, ids=lambda recipe: recipe.label)
+def test_every_recipe_has_words(recipe):
+    found = texts(recipe.label, method="AUTO")
+    assert list(found) == NAMES
+    if recipe.range_sigmas:
+        assert found["chosen_levels"] == str(recipe.n_bands)
+        assert found["chosen_lambda"] == f"{recipe.threshold} × noise"
+        assert float(found["chosen_mu"]) == COUPLING
+    else:
+        assert found["chosen_levels"] == f"{recipe.n_averages} averages"
+        assert not found["chosen_lambda"] and not found["chosen_mu"]
+
+
+@pytest.mark.parametrize(("one", "other"), list(permutations(RECIPES, 2)))
+def test_the_mean_of_two_recipes_names_both(one, other):
+    found = texts(f"{one.label} and {other.label}", method="AUTO")
+    alone = [texts(recipe.label, method="AUTO") for recipe in RECIPES if recipe in (one, other)]
+    for name in NAMES:
+        values = [each[name] for each in alone if each[name]]
+        assert found[name] == "\n".join(dict.fromkeys(values))
+
+
+def test_clean_meshes_chose_nothing():
+    assert texts(CLEAN, method="AUTO") == {"chosen_recipe": CLEAN}
+
+
+def test_the_noise_gives_two_numbers():
+    assert texts(method="POSITIONS", tuning="NOISE", lambda_=0.31234, mu=2.0) == {
+        "chosen_lambda": "0.312",
+        "chosen_mu": "2",
+    }
+    for method in ("POSITIONS", "NORMALS", "BILATERAL"):
+        assert texts(noise=None, method=method) == {}

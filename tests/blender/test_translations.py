@@ -1,0 +1,96 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Every text that Blender shows for Framelet has an entry in each translation, and every entry a text."""
+
+from string import Formatter
+
+import bpy
+import pytest
+import translatable
+from framelet.ui import translations
+
+LANGUAGES = list(translations.TRANSLATIONS)
+
+
+def listed(texts):
+    """Return texts as lines for a message."""
+    return "\n".join(f"  {context}: {text!r}" for context, text in sorted(texts))
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_nothing_is_missing(language):
+    missing = translatable.messages() - set(translations.TRANSLATIONS[language])
+    assert not missing, f"{len(missing)} texts have no translation in {language!r}:\n{listed(missing)}"
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_nothing_is_left_over(language):
+    stale = set(translations.TRANSLATIONS[language]) - translatable.messages()
+    assert not stale, f"{len(stale)} entries of {language!r} belong to no text:\n{listed(stale)}"
+
+
+def test_the_search_for_texts_finds_them():
+    found = translatable.messages()
+    assert {
+        ("Operator", "Denoise"),
+        ("Operator", "Heat Map"),
+        ("*", "Engine"),
+        ("*", "Select at least one mesh object"),
+        ("*", "Showing {names} before denoising"),
+        ("*", "Box Spline"),
+        ("*", "See It"),
+        ("*", "Smoothing λ"),
+        ("*", "Open mesh"),
+        ("*", "{:.3f} edge lengths"),
+    } <= found
+    assert not [text for _, text in found if text.startswith(("OBJECT_", "VIEW3D_"))]
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_translations_have_the_same_fields_and_form(language):
+    for (_, text), translated in translations.TRANSLATIONS[language].items():
+        fields = [
+            [part[1:3] for part in Formatter().parse(each) if part[1] is not None]
+            for each in (text, translated)
+        ]
+        assert sorted(fields[0]) == sorted(fields[1]), text
+        assert translated and translated == translated.strip()
+        assert translated.endswith(".") == text.endswith("."), text
+        for symbol in "λμδσ":
+            assert text.count(symbol) == translated.count(symbol), text
+
+
+def test_german_says_what_larger_does():
+    for (_, text), german in translations.TRANSLATIONS["de"].items():
+        if ": larger" in text or "; larger" in text:
+            assert "größer" in german, text
+
+
+def test_texts_that_go_back_and_forth_are_few():
+    same = {text for (_, text), german in translations.TRANSLATIONS["de"].items() if text == german}
+    # Names, and words that German took over.
+    assert len(same) < 0.1 * len(translations.TRANSLATIONS["de"]), sorted(same)
+
+
+def test_entries_are_what_blender_wants():
+    for language, entries in translations.TRANSLATIONS.items():
+        assert language.islower() and len(language) == 2
+        for (context, text), translated in entries.items():
+            assert context in {"*", "Operator"} and isinstance(text, str) and isinstance(translated, str)
+
+
+@pytest.mark.skipif(
+    not bpy.app.build_options.international, reason="this Blender was built without translations"
+)
+def test_blender_looks_the_texts_up():
+    preferences = bpy.context.preferences.view
+    before = preferences.language
+    languages = [item.identifier for item in preferences.bl_rna.properties["language"].enum_items]
+    try:
+        preferences.language = next(each for each in languages if each.partition("_")[0] == "de")
+        preferences.use_translate_interface = True
+        # Where Blender has a word itself, as for "Engine", its own translation comes first.
+        assert bpy.app.translations.pgettext_iface("Smoothing λ") == "Glättung λ"
+        assert bpy.app.translations.pgettext_iface("Denoise", "Operator") == "Entrauschen"
+    finally:
+        preferences.language = before

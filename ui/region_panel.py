@@ -1,0 +1,73 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The subpanel Region: where vertices may move, how far, and what is mended."""
+
+from __future__ import annotations
+
+import bpy
+from bpy.app.translations import pgettext_iface as iface_
+from bpy.app.translations import pgettext_n as n_
+
+from .layouts import FrameletPanel, draw_value, settings_column
+
+
+class VIEW3D_PT_framelet_region(FrameletPanel, bpy.types.Panel):
+    """Where vertices may move and how far."""
+
+    bl_label = "Region"
+    bl_parent_id = "VIEW3D_PT_framelet"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the options; those without effect as the others are stay away or are gray."""
+        settings = context.scene.framelet
+        column = settings_column(self.layout)
+        _draw_group(column, settings, context.active_object)
+        column.prop(settings, "keep_hidden")
+        column.prop(settings, "keep_sharp")
+        column.separator()
+        column.prop(settings, "limit")
+        if settings.limit != "NONE":
+            column.prop(settings, "max_edges" if settings.limit == "EDGES" else "max_length")
+        column.prop(settings, "along_normals")
+        column.separator()
+        column.prop(settings, "keep_volume")
+        column.prop(settings, "repair_folds")
+        column.prop(settings, "weld")
+        if settings.weld:
+            column.prop(settings, "weld_distance")
+
+
+def draw_repairs(layout: bpy.types.UILayout, report: bpy.types.PropertyGroup) -> None:
+    """Draw, as lines of the table of the last run, folded and degenerate faces and what regions did."""
+    for label, name in ((n_("Folded Faces"), "folded_faces"), (n_("Degenerate"), "degenerate_faces")):
+        now, before = getattr(report, name), getattr(report, f"{name}_before")
+        if now or before:
+            draw_value(layout, label, iface_("{:,} (before: {:,})").format(now, before))
+    for label, name in (
+        (n_("Damped"), "damped_vertices"),
+        (n_("On Lines"), "line_vertices"),
+        (n_("Welded"), "welded_vertices"),
+    ):
+        if getattr(report, name):
+            draw_value(layout, label, f"{getattr(report, name):,}")
+
+
+def _draw_group(
+    column: bpy.types.UILayout, settings: bpy.types.PropertyGroup, obj: bpy.types.Object | None
+) -> None:
+    """Draw the choice of a vertex group, from those of the active object if it is a mesh."""
+    row = column.row(align=True)
+    if obj is not None and obj.type == "MESH":
+        row.prop_search(settings, "vertex_group", obj, "vertex_groups")
+    else:
+        row.prop(settings, "vertex_group")
+    button = row.row(align=True)
+    button.active = bool(settings.vertex_group)
+    button.prop(settings, "invert_group", text="", icon="ARROW_LEFTRIGHT")
+    is_named = obj is not None and obj.type == "MESH" and bool(settings.vertex_group)
+    if is_named and settings.vertex_group not in obj.vertex_groups:
+        column.label(text=iface_("‘{name}’ has no such group").format(name=obj.name), icon="ERROR")
+
+
+classes = (VIEW3D_PT_framelet_region,)

@@ -1,0 +1,31 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What Blender shows for Framelet in other languages.
+
+Blender looks texts up by context: *Operator* for the names of operators and the texts on their buttons, * for
+everything else. A test compares the entries with all texts that Framelet shows.
+"""
+
+import bpy
+
+from . import german_bands, german_operators, german_region, german_reports, german_settings
+
+_GERMAN = (german_operators, german_settings, german_bands, german_region, german_reports)
+
+TRANSLATIONS = {
+    # The language without a country serves all countries.
+    "de": {
+        **{("Operator", text): german for text, german in german_operators.NAMES.items()},
+        **{("*", text): german for module in _GERMAN for text, german in module.TEXTS.items()},
+    }
+}
+
+
+def register() -> None:
+    """Add the translations to Blender's."""
+    bpy.app.translations.register(__package__, TRANSLATIONS)
+
+
+def unregister() -> None:
+    """Take them away."""
+    bpy.app.translations.unregister(__package__)

@@ -1,0 +1,129 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""German for regions, outputs, and what is shown while a run goes on."""
+
+TEXTS = {
+    # Region
+    "Region": "Bereich",
+    "Vertices move by their weight in the group of this name: larger weights move farther, vertices with weight 0 or outside of the group stay; empty moves all": (
+        "Punkte bewegen sich nach ihrem Gewicht in der Gruppe dieses Namens: größere Gewichte bewegen sich weiter, Punkte mit Gewicht 0 oder außerhalb bleiben; leer bewegt alle"
+    ),
+    "Vertices move by one minus their weight: larger weights move less": (
+        "Punkte bewegen sich um eins minus ihr Gewicht: größere Gewichte bewegen sich weniger"
+    ),
+    "Leave Hidden Alone": "Verborgenes lassen",
+    "Hidden vertices stay where they are, in Object Mode too": (
+        "Verborgene Punkte bleiben, wo sie sind, auch im Objektmodus"
+    ),
+    "Keep Sharp Edges": "Scharfe Kanten behalten",
+    "Edges that are marked sharp or creased stay sharp: their vertices are smoothed along the edges only, and stay where such edges end, meet or turn a corner": (
+        "Kanten, die als scharf oder mit Falte markiert sind, bleiben scharf: ihre Punkte werden nur entlang der Kanten geglättet und bleiben, wo solche Kanten enden, sich treffen oder abknicken"
+    ),
+    "Farthest": "Höchstens",
+    "Whether there is a farthest way for vertices": "Ob es einen weitesten Weg für Punkte gibt",
+    "None": "Keine",
+    "Vertices move as far as the method moves them": "Punkte bewegen sich so weit, wie das Verfahren sie bewegt",
+    "Edge Lengths": "Kantenlängen",
+    "No vertex moves farther than so many mean edge lengths of its mesh": (
+        "Kein Punkt bewegt sich weiter als so viele mittlere Kantenlängen seines Netzes"
+    ),
+    "No vertex moves farther than a length in the scene": (
+        "Kein Punkt bewegt sich weiter als eine Länge in der Szene"
+    ),
+    "Farthest that any vertex may move, in mean edge lengths: larger removes stronger noise, smaller stays closer to the input": (
+        "Wie weit sich ein Punkt höchstens bewegen darf, in mittleren Kantenlängen: größer entfernt stärkeres Rauschen, kleiner bleibt näher an der Vorlage"
+    ),
+    "Farthest that any vertex may move, in scene units: larger removes stronger noise, smaller stays closer to the input": (
+        "Wie weit sich ein Punkt höchstens bewegen darf, in Einheiten der Szene: größer entfernt stärkeres Rauschen, kleiner bleibt näher an der Vorlage"
+    ),
+    "Along Normals Only": "Nur entlang der Normalen",
+    "Vertices move across the surface only, so that textures do not slide; noise along the surface stays": (
+        "Punkte bewegen sich nur quer zur Oberfläche, sodass Texturen nicht verrutschen; Rauschen entlang der Oberfläche bleibt"
+    ),
+    "Keep Volume": "Volumen behalten",
+    "Closed meshes keep their volume: what was lost is given back by moving vertices along the normals": (
+        "Geschlossene Netze behalten ihr Volumen: was verloren ging, geben Bewegungen entlang der Normalen zurück"
+    ),
+    "Repair Folds": "Umschläge beheben",
+    "Where faces would fold over, their vertices move less": (
+        "Wo Flächen umschlagen würden, bewegen sich ihre Punkte weniger"
+    ),
+    "Weld by Position": "Nach Lage verbinden",
+    "Vertices at the same place count as one for the work and move together, as triangle soups and split seams need; the mesh keeps all its vertices, faces and UV maps": (
+        "Punkte am selben Ort gelten für die Arbeit als einer und bewegen sich gemeinsam, wie es lose Dreiecke und aufgetrennte Nähte brauchen; das Netz behält alle Punkte, Flächen und UV-Karten"
+    ),
+    "Merge Distance": "Abstand",
+    "Vertices up to so far apart count as one, in scene units: larger welds wider gaps, 0 only vertices at exactly the same place": (
+        "Punkte bis zu diesem Abstand gelten als einer, in Einheiten der Szene: größer verbindet weitere Lücken, 0 nur Punkte an genau demselben Ort"
+    ),
+    "‘{name}’ has no such group": "‘{name}’ hat keine solche Gruppe",
+    # What became of it
+    "{:,} (before: {:,})": "{:,} (vorher: {:,})",
+    "Folded Faces": "Gefaltet",
+    "Faces that look against the faces around them": "Flächen, die gegen die Flächen um sie herum blicken",
+    "Folded Faces Before": "Vorher gefaltet",
+    "Faces that looked against the faces around them before": (
+        "Flächen, die vorher gegen die Flächen um sie herum blickten"
+    ),
+    "Degenerate": "Entartet",
+    "Faces next to without area": "Flächen beinahe ohne Inhalt",
+    "Degenerate Before": "Vorher entartet",
+    "Faces next to without area before": "Flächen, die vorher beinahe ohne Inhalt waren",
+    "Damped": "Gedämpft",
+    "Vertices that moved less, so that no face folds": (
+        "Punkte, die sich weniger bewegten, damit keine Fläche umschlägt"
+    ),
+    "On Lines": "Auf Linien",
+    "Vertices on sharp edges, which were smoothed along them only": (
+        "Punkte auf scharfen Kanten, die nur entlang dieser geglättet wurden"
+    ),
+    "Welded": "Verbunden",
+    "Vertices that were welded to others for the run": "Punkte, die für den Lauf mit anderen verbunden waren",
+    # Output
+    "Output": "Ausgabe",
+    "Where the denoised surface goes": "Wohin die entrauschte Oberfläche kommt",
+    "In Place": "An Ort und Stelle",
+    "The mesh itself is changed; with shape keys, the active one": (
+        "Das Netz selbst wird geändert; mit Formschlüsseln der aktive"
+    ),
+    "Shape Key": "Formschlüssel",
+    "A new shape key holds the result; its value sets the amount, also later, and can be keyed": (
+        "Ein neuer Formschlüssel enthält das Ergebnis; sein Wert bestimmt das Maß, auch später, und lässt sich animieren"
+    ),
+    "New Object": "Neues Objekt",
+    "A copy of the object holds the result; the original stays as it is": (
+        "Eine Kopie des Objekts enthält das Ergebnis; das Original bleibt, wie es ist"
+    ),
+    "Its value is the amount": "Sein Wert ist das Maß",
+    "The original stays as it is": "Das Original bleibt, wie es ist",
+    "Needs Object Mode": "Braucht den Objektmodus",
+    "Cancel the run that is going on; everything stays as it was": (
+        "Den laufenden Vorgang abbrechen; alles bleibt, wie es war"
+    ),
+    # Live preview
+    "Show on the active mesh what the settings would give, while they are changed; Esc ends it": (
+        "Am aktiven Netz zeigen, was die Einstellungen ergäben, während sie geändert werden; Esc beendet es"
+    ),
+    "Keep what the preview shows, in the place that Output says": (
+        "Behalten, was die Vorschau zeigt, dort, wo es die Ausgabe vorsieht"
+    ),
+    "Make a mesh object active": "Ein Netz aktiv machen",
+    "The live preview is off": "Die Vorschau ist aus",
+    "The preview does not show these settings yet": "Die Vorschau zeigt diese Einstellungen noch nicht",
+    "Computing {name}": "{name} wird berechnet",
+    # A run that goes on
+    "Framelet is not running": "Framelet läuft nicht",
+    "Framelet is running; press Esc or the right mouse button to cancel": (
+        "Framelet läuft; Esc oder die rechte Maustaste bricht ab"
+    ),
+    "Canceled; nothing was changed": "Abgebrochen; nichts wurde geändert",
+    "Denoising ‘{name}’": "‘{name}’ wird entrauscht",
+    "Denoising ‘{name}’ ({number} of {total})": "‘{name}’ wird entrauscht ({number} von {total})",
+    "{what}: preparing": "{what}: Vorbereitung",
+    "{progress}   |   Esc or Right Mouse Button: Cancel": "{progress}   |   Esc oder rechte Maustaste: Abbrechen",
+    "Denoised {names}: {moved:,} of {total:,} vertices moved, {length} RMS ({edges:.3f} edge lengths), in {seconds:.2f} s": (
+        "{names} entrauscht: {moved:,} von {total:,} Punkten bewegt, {length} im Mittel ({edges:.3f} Kantenlängen), in {seconds:.2f} s"
+    ),
+    "; noise {noise}": "; Rauschen {noise}",
+    "; used {what}": "; verwendet: {what}",
+}
