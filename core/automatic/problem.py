@@ -170,7 +170,9 @@ class NormalProblem:
         noise = self._noise_in_normals(points, start.sample)
         fields = self.averages.inward_rows([*start.normals, *noise, *normals])
         if self.surface.n_faces >= MANY_ITEMS:
-            del self.fit  # made again quickly, and large when memory is needed most
+            # Made again quickly, and large when memory is needed most.
+            del self.fit
+            self.__dict__.pop("rings", None)
         give_back(self.surface.n_faces)
         return fields
 

@@ -134,7 +134,7 @@ def _averaged_often(
     coefficients = _power_series(n_steps)
     before, current = fields, averages.average(weights, fields)
     total = fields.dtype.type(coefficients[0]) * fields
-    total += fields.dtype.type(coefficients[1]) * current
+    _add_times(fields.dtype.type(coefficients[1]), current, total, averages)
     for coefficient in coefficients[2:]:
         averages.go_on(weights, current, before)
         before, current = current, before
