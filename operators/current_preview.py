@@ -94,8 +94,7 @@ def stop_preview() -> None:
     current_preview()
     while _ending:
         _ending.pop().join()
-    if bpy.app.timers.is_registered(_on_timer):
-        bpy.app.timers.unregister(_on_timer)
+    _remove_timer()
 
 
 def leave_preview() -> None:
@@ -104,6 +103,14 @@ def leave_preview() -> None:
     if session is not None:
         session.leave()
         current_preview()
+    # Blender 4 crashes on exit if it has to remove a timer of Python when it opens a file.
+    _remove_timer()
+
+
+def _remove_timer() -> None:
+    """Take the timer away, if it is there."""
+    if bpy.app.timers.is_registered(_on_timer):
+        bpy.app.timers.unregister(_on_timer)
 
 
 def before_undo() -> None:

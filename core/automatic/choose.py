@@ -4,21 +4,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
+from ..normals.centroids import face_centroids
 from ..normals.neighbors import Ragged, faces_of_vertices
 from ..normals.noise_sample import area_vectors, normals_of, scrambled, vertex_means
 from ..normals.pilot import unit_columns
-from ..normals.vertex_update import face_centroids
 from ..surface.connectivity import connect
 from ..surface.surface_mesh import SurfaceMesh
 from .patches import trial_part
-from .recipes import RECIPES, NormalProblem, Recipe, unit_noise
+from .problem import NormalProblem, unit_noise
+from .recipes import RECIPES, Recipe
 
 PROBE = 0.01
 """How far vertices are moved, in mean edge lengths, to see how much a result follows the noise."""
@@ -26,22 +27,35 @@ PROBE = 0.01
 SIGNLESS = 1e-3
 """Scrambled numbers as near to 1/2 get no sign."""
 
-LEAST_RISK = 0.03
-"""In units of the variance of the noise; smaller risks count as this one: the estimate is not so exact."""
-
-N_PROBES = (4, 8000)
+N_PROBES = (4, 6000)
 """Most probes, and the number of faces that one probe suffices for: small meshes need several."""
-
-
-HANDICAP = 1.4
-"""Factor on the risk of the low-pass of positions alone, which blurs creases: it has to be clearly better."""
 
 LARGEST_RESPONSE = 3.0
 """How much further than it was moved a vertex may be seen to move: a few that jump would drown all others."""
 
-STRONG = 0.35
-"""Noise in mean edge lengths beyond which results of normals and of positions are not averaged. Risks are too
-uncertain there, and the low-pass blurs the creases that the other one found."""
+HOPELESS = 0.5
+"""A recipe whose squared displacements are so many variances of the noise above the smallest ones is given up
+without probes: they do not tell more than that apart."""
+
+UNCERTAINTY = 0.08
+"""In units of the variance of the noise: how well risks are known. It is added to them, so that risks that
+are all nearly zero leave the choice to smoothness."""
+
+SLIDING = 0.1
+"""How much the mean squared displacement within the surface counts, which changes no shape but stretches the
+faces, beside the risk across it."""
+
+SMOOTHNESS = (0.5, 0.25)
+"""Powers of the two measures of roughness that risks are multiplied by."""
+
+N_PAIRED = 12
+"""Recipes, the best ones alone, whose pairs are looked at."""
+
+TINY_ROUGHNESS = 1e-4
+"""Differences of normals below this are rounding."""
+
+PAIRED_UP_TO = 500_000
+"""Faces up to which two recipes may be run and averaged; the time of larger meshes is better spent on one."""
 
 WIDENINGS = 3
 """Averages of normals over the faces around, so that strong noise does not tilt the directions."""
@@ -78,11 +92,13 @@ def choose_recipes(
     -----
     Stein's estimate of the mean squared error (Ramani, Blu, Unser 2008), for displacements q along the
     normals of the noisy mesh: mean(q^2) - sigma^2 + 2 sigma^2 mean(b dr / eps), where dr is how the result
-    changes when the vertices move by eps b, b = +-1. It is multiplied by the square of the mean difference of
-    adjacent normals, as the error of positions says little about roughness, which is what people see.
+    changes when the vertices move by eps b, b = +-1. In units of sigma^2, with a little for displacements
+    within the surface and plus `UNCERTAINTY`, it is multiplied by powers of two measures of roughness (see
+    `_Roughness`), as the error of positions says little about roughness, which is what people see. Estimates
+    below zero say that the noise was estimated too strong; all are raised by as much.
 
-    Two estimates whose errors differ are better on average than each of them. The risk of a mean of two
-    results needs no further run.
+    Two results whose errors differ are better on average than each of them. The risk of a mean of two results
+    needs no further run.
     """
     part = trial_part(noisy, surface)
     points = np.ascontiguousarray(noisy[:, part.vertices])
@@ -96,10 +112,16 @@ def choose_recipes(
     problem = NormalProblem(points, part.surface, connectivity, sigma, blocks, sample)
     n_probes = min(N_PROBES[0], -(-N_PROBES[1] // part.surface.n_faces))
     share = 1.0 / ((1 + n_probes) * len(RECIPES))
-    results, divergences = [], np.zeros(len(RECIPES))
+    results, heights, slides = [], [], []
     for recipe in RECIPES:
         results.append(problem.run(recipe, is_unfolded=False))
+        height, slide = _split(results[-1] - points, directions, counted)
+        heights.append(height)
+        slides.append(slide)
         tick(share)
+    spread = np.array([np.mean(height * height) for height in heights]) / sigma**2
+    hopeful = np.flatnonzero(spread <= spread.min() + HOPELESS)
+    divergence = np.zeros(len(RECIPES))
     for probe in range(n_probes):
         # Signs and the sample of the noise are digits of different places of the same number.
         number = scrambled(points, part.surface, at_vertex, sigma, 1009.0 - 101.0 * probe)
@@ -108,35 +130,54 @@ def choose_recipes(
         signs = np.where(np.abs(apart) < SIGNLESS, 0, np.sign(apart))
         probed = points + noisy.dtype.type(PROBE) * signs * directions
         other = NormalProblem(probed, part.surface, connectivity, sigma, blocks, sample)
-        other.unit = problem.unit
-        for index, recipe in enumerate(RECIPES):
-            moved = other.run(recipe, is_unfolded=False) - results[index]
+        other.units = problem.units
+        for index in hopeful:
+            moved = other.run(RECIPES[index], is_unfolded=False) - results[index]
             follows = signs * np.einsum("cn,cn->n", moved, directions) / PROBE
             follows = np.clip(follows, -LARGEST_RESPONSE, LARGEST_RESPONSE)
-            divergences[index] += float(np.mean(follows[counted], dtype=np.float64))
+            divergence[index] += float(np.mean(follows[counted], dtype=np.float64)) / n_probes
             tick(share)
-    divergences /= n_probes
-    choices: list[tuple[int, ...]] = [(index,) for index in range(len(RECIPES))]
-    choices += [
-        pair
-        for pair in combinations(range(len(RECIPES)), 2)
-        if sigma <= STRONG or _is_of_normals(pair[0]) == _is_of_normals(pair[1])
-    ]
-    risks, roughness = [], []
-    for choice in choices:
-        result = results[choice[0]] if len(choice) == 1 else 0.5 * (results[choice[0]] + results[choice[1]])
-        q = np.einsum("cn,cn->n", result - points, directions)[counted].astype(np.float64)
-        divergence = float(np.mean(divergences[list(choice)]))
-        risk = float(np.mean(q * q)) - sigma**2 + 2.0 * sigma**2 * divergence
-        is_blurring = not any(map(_is_of_normals, choice))
-        risks.append(max(risk, LEAST_RISK * sigma**2) * (HANDICAP if is_blurring else 1.0))
-        roughness.append(_roughness(result, problem, counted))
-    return tuple(RECIPES[index] for index in choices[_best(risks, roughness)])
+        tick(share * (len(RECIPES) - len(hopeful)))
+    rough = _Roughness(problem, counted)
+
+    def judge(choices: Sequence[tuple[int, ...]]) -> NDArray[np.float64]:
+        """Return a risk and two measures of roughness for each choice, shape (3, n)."""
+        judged = []
+        for choice in choices:
+            members = list(choice)
+            result = np.mean([results[index] for index in members], axis=0, dtype=noisy.dtype)
+            height = np.mean([heights[index] for index in members], axis=0)
+            slide = np.mean([slides[index] for index in members], axis=0)
+            squares = np.mean(height * height) + SLIDING * 3.0 * np.mean(slide * slide)
+            judged.append((squares / sigma**2 - 1.0 + 2.0 * divergence[members].mean(), *rough.of(result)))
+        return np.array(judged).T
+
+    singles = [(int(index),) for index in hopeful]
+    alone = judge(singles)
+    if surface.n_faces > PAIRED_UP_TO:
+        return (RECIPES[singles[int(np.argmin(scores(*alone)))][0]],)
+    best = hopeful[np.argsort(scores(*alone), kind="stable")[:N_PAIRED]]
+    choices = singles + [(int(first), int(second)) for first, second in combinations(np.sort(best), 2)]
+    judged = np.concatenate((alone, judge(choices[len(singles) :])), axis=1) if len(best) > 1 else alone
+    return tuple(RECIPES[index] for index in choices[int(np.argmin(scores(*judged)))])
 
 
-def _is_of_normals(index: int) -> bool:
-    """Tell whether a recipe works on normals; the others work on positions."""
-    return bool(RECIPES[index].range_sigmas)
+def scores(risk: NDArray[np.float64], *roughness: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return what is to be small, shape (n,): risks in variances of the noise times powers of roughness."""
+    found = risk - min(0.0, float(risk.min())) + UNCERTAINTY
+    for rough, power in zip(roughness, SMOOTHNESS, strict=True):
+        smallest = max(float(rough.min()), TINY_ROUGHNESS)
+        found = found * (np.maximum(rough, smallest) / smallest) ** power
+    return found
+
+
+def _split(
+    displacement: NDArray[np.floating], directions: NDArray[np.floating], counted: NDArray[np.bool_]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return displacements along directions, shape (n,), and across, shape (3, n), of counted vertices."""
+    apart, along = displacement[:, counted].astype(np.float64), directions[:, counted].astype(np.float64)
+    height = np.einsum("cn,cn->n", apart, along)
+    return height, apart - height * along
 
 
 def _wide_normals(
@@ -151,18 +192,45 @@ def _wide_normals(
     return unit_columns(at_vertices, np.zeros_like(at_vertices))
 
 
-def _roughness(points: NDArray[np.floating], problem: NormalProblem, counted: NDArray[np.bool_]) -> float:
-    """Return the mean of |n_f - n_g| over adjacent faces, those at the counted vertices only."""
-    normals = normals_of(points, problem.surface)
-    own = np.repeat(np.arange(normals.shape[1]), np.diff(problem.neighbors.offset))
-    # The corners of a face are its edges as well, so that `own` goes along with them.
-    inside = counted[problem.surface.corner_vertex]
-    apart = normals[:, own[inside]] - normals[:, problem.neighbors.neighbor[inside]]
-    return float(np.sqrt((apart * apart).sum(axis=0)).mean()) if apart.size else 0.0
+class _Roughness:
+    """How rough a result is, at the counted vertices only.
 
+    Parameters
+    ----------
+    problem : NormalProblem
+        The mesh.
+    counted : ndarray, shape (N,), bool
+        Vertices that count.
+    """
 
-def _best(risks: list[float], roughness: list[float]) -> int:
-    """Return which choice has the lowest risk times squared roughness."""
-    smallest = max(min(roughness), 1e-12)
-    scores = [risk * (rough / smallest) ** 2 for risk, rough in zip(risks, roughness, strict=True)]
-    return int(np.argmin(scores))
+    def __init__(self, problem: NormalProblem, counted: NDArray[np.bool_]) -> None:
+        surface, neighbors = problem.surface, problem.neighbors
+        own = np.repeat(np.arange(surface.n_faces), np.diff(neighbors.offset))
+        # The corners of a face are its edges as well, so that `own` goes along with them.
+        is_seen = counted[surface.corner_vertex] & (own != neighbors.neighbor)
+        self._surface, self._first, self._second = surface, own[is_seen], neighbors.neighbor[is_seen]
+        n_all = np.bincount(own, minlength=surface.n_faces)
+        self._n_seen = np.bincount(self._first, minlength=surface.n_faces)
+        n_counted = np.bincount(own[counted[surface.corner_vertex]], minlength=surface.n_faces)
+        self._inner = np.flatnonzero((self._n_seen > 0) & (n_counted == n_all))
+
+    def of(self, points: NDArray[np.floating]) -> tuple[float, float]:
+        """Return two measures of the roughness of positions, shape (3, N).
+
+        The lower quartile of |n_f - n_g| over adjacent faces: creases do not count, and flat regions do. The
+        root mean square of |n_f - mean(n_g)|: bends that all neighbors share do not count.
+        """
+        if not len(self._inner):
+            return 0.0, 0.0
+        normals = normals_of(points, self._surface)
+        others = normals[:, self._second]
+        apart = normals[:, self._first] - others
+        squares = np.einsum("cn,cn->n", apart, apart)
+        quarter = len(squares) // 4
+        n_faces = normals.shape[1]
+        sums = np.stack([np.bincount(self._first, row, minlength=n_faces) for row in others])
+        bent = normals[:, self._inner] - sums[:, self._inner] / self._n_seen[self._inner]
+        return (
+            float(np.sqrt(np.partition(squares, quarter)[quarter])),
+            float(np.sqrt(np.mean(np.einsum("cn,cn->n", bent, bent)))),
+        )

@@ -17,7 +17,8 @@ from ..settings import DenoiseSettings
 from ..surface.connectivity import Connectivity
 from ..surface.surface_mesh import SurfaceMesh
 from .choose import choose_recipes
-from .recipes import NormalProblem, n_ticks
+from .problem import NormalProblem
+from .recipes import n_ticks
 
 LEAST_NOISE = 0.004
 """Noise in mean edge lengths below which a mesh counts as clean and is left alone."""

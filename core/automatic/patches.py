@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..normals.vertex_update import face_centroids
+from ..normals.centroids import face_centroids
 from ..surface.surface_mesh import SurfaceMesh
 
 WHOLE = 7000

@@ -113,12 +113,27 @@ class _Shrinkage:
 
     def __call__(self, index: int, high: Chunk) -> None:
         """Replace the high bands of one chunk, in place; a `Visit`."""
+        free = self._unpenalized[index]
+        begin, end, _ = free.indices(high.shape[1])
+        # b is kept for the bands that are shrunk only: (bands, where their b is).
+        shrunk = [(slice(0, begin), slice(0, begin)), (slice(end, None), slice(begin, None))]
+        if begin == end:
+            shrunk = [(slice(None), slice(None))]
         residual = self._residual[index]
         if residual is not None:
-            high += residual
+            for bands, own in shrunk:
+                high[:, bands] += residual[:, own]
         cut = clipped(high, self._threshold, self._kind, self._groups[index])
-        cut[:, self._unpenalized[index]] = 0
-        self._residual[index] = cut
+        cut[:, free] = 0
         np.multiply(cut, high.dtype.type(-2), out=high)
         if residual is not None:
-            high += residual
+            for bands, own in shrunk:
+                high[:, bands] += residual[:, own]
+        if begin == end:
+            self._residual[index] = cut
+            return
+        if residual is None:
+            shape = (3, high.shape[1] - (end - begin), high.shape[2])
+            residual = self._residual[index] = np.empty(shape, high.dtype)
+        for bands, own in shrunk:
+            residual[:, own] = cut[:, bands]

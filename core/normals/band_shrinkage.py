@@ -12,6 +12,10 @@ triangle and every weight.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import cache
+from math import comb
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -22,9 +26,8 @@ WIDEST = 4
 """Averaging steps, at most, that smooth local energies."""
 
 
-def average_steps(n_bands: int) -> int:
-    """Return the number of averages that a transform with so many bands takes."""
-    return 1 if n_bands < 2 else 2 ** (n_bands - 1)
+LEFT_OUT = 0.03
+"""Terms of the series of a power of A that are left out sum up to less than this."""
 
 
 def shrink_bands(
@@ -41,7 +44,7 @@ def shrink_bands(
 
     Parameters
     ----------
-    noisy, noise, pilot : ndarray, shape (F, 3)
+    noisy, noise, pilot : ndarray, shape (3, F)
         Noisy unit normals; a sample of the noise in them; clean unit normals as far as they are known. Not
         modified.
     averages : Averages
@@ -57,7 +60,7 @@ def shrink_bands(
 
     Returns
     -------
-    ndarray, shape (F, 3)
+    ndarray, shape (3, F)
         Clean vectors, not yet of length 1.
 
     Notes
@@ -66,36 +69,148 @@ def shrink_bands(
     noise. Squares make it steeper than Wiener's E / (E + N): bands of pure noise, where E is what the pilot
     left of it, come closer to 0.
     """
-    low = np.concatenate((noisy, noise, pilot), axis=1)
-    result = np.zeros_like(noisy)
-    tiny = np.finfo(noisy.dtype).tiny
+    rows = [row for field in (noisy, noise, pilot) for row in field]
+    return shrink_inside(lambda: averages.inward_rows(rows), averages, weights, n_bands, caution, tick)
+
+
+_N = 9  # columns of the three fields
+
+
+def shrink_inside(
+    make_fields: Callable[[], NDArray[np.floating]],
+    averages: Averages,
+    weights: Weights,
+    n_bands: int,
+    caution: float,
+    tick: Tick = lambda: None,
+) -> NDArray[np.floating]:
+    """Return what `shrink_bands` returns for its three fields, shape (n, 9), numbered as inside `averages`.
+
+    They are handed over by a function, so that their memory is free after the first band.
+    Local energies of a band are smoothed while the next one is made, as two columns behind the fields: it
+    costs hardly more to average them along than the fields alone.
+    """
+    fields = make_fields()
+    result = np.zeros((len(fields), 3), fields.dtype)
+    waiting: NDArray[np.floating] | None = None  # the high band whose energies are being smoothed
+    to_come = 0
     for band in range(n_bands):
-        before = low
-        for _ in range(1 if band == 0 else 2 ** (band - 1)):
-            low = averages.average(weights, low)
-        high = before - low
-        energy = np.stack(
-            (
-                np.einsum("fc,fc->f", high[:, 3:6], high[:, 3:6]),
-                np.einsum("fc,fc->f", high[:, 6:], high[:, 6:]),
-            ),
-            axis=1,
-        )
-        for _ in range(min(WIDEST, max(2, 2**band))):
-            energy = averages.average(weights, energy)
-        signal = energy[:, 1] * energy[:, 1]
-        spoiled = energy[:, 0] * caution
+        before = fields
+        n_steps = 1 if band == 0 else 2 ** (band - 1)
+        # The first steps one by one, as long as energies are on their way.
+        for _ in range(min(n_steps, WIDEST)):
+            fields = averages.average(weights, fields)
+            to_come -= 1
+            if waiting is not None and not to_come:
+                _add_shrunk(result, waiting, fields[:, _N:], caution, averages)
+                waiting = None
+        if n_steps > WIDEST:
+            fields = _averaged_often(fields, n_steps - WIDEST, averages, weights)
+        to_come = min(WIDEST, max(2, 2**band))
+        high, fields = _split(before, fields, averages)
+        del before
+        if band + 1 < n_bands and to_come <= 2**band:
+            waiting = high
+        else:
+            energies = np.ascontiguousarray(fields[:, _N:])
+            for _ in range(to_come):
+                energies = averages.average(weights, energies)
+            _add_shrunk(result, high, energies, caution, averages)
+            fields = np.ascontiguousarray(fields[:, :_N])
+        tick()
+    result += fields[:, :3]
+    return averages.outward(result).T
+
+
+def _averaged_often(
+    fields: NDArray[np.floating], n_steps: int, averages: Averages, weights: Weights
+) -> NDArray[np.floating]:
+    """Return A^n of fields, nearly, in far fewer steps.
+
+    A is similar to a symmetric matrix with eigenvalues between -1 and 1, so that A^n is a sum of Chebyshev
+    polynomials T_j(A) with coefficients that fall off like a Gaussian of width sqrt(n). What is left out
+    touches only what the averages before have taken away already, and constants stay as they are.
+    """
+    coefficients = _power_series(n_steps)
+    before, current = fields, averages.average(weights, fields)
+    total = fields.dtype.type(coefficients[0]) * fields
+    total += fields.dtype.type(coefficients[1]) * current
+    for coefficient in coefficients[2:]:
+        following = averages.average(weights, current)
+        factor = fields.dtype.type(coefficient)
+
+        def kernel(
+            start: int,
+            stop: int,
+            following: NDArray[np.floating] = following,
+            before: NDArray[np.floating] = before,
+            factor: np.floating = factor,
+        ) -> None:
+            # T_(j + 1) = 2 A T_j - T_(j - 1)
+            part = following[start:stop]
+            part *= 2
+            part -= before[start:stop]
+            if factor:
+                total[start:stop] += factor * part
+
+        averages.for_items(kernel)
+        before, current = current, following
+    return total
+
+
+@cache
+def _power_series(exponent: int) -> list[float]:
+    """Return the Chebyshev coefficients of x^n, the small ones at the end left out, with sum 1.
+
+    They are the chances of a random walk of n steps to end j steps from where it began.
+    """
+    found = np.zeros(exponent + 1)
+    for apart in range(exponent, -1, -2):
+        found[apart] = comb(exponent, (exponent - apart) // 2) / 2.0 ** (exponent - (apart > 0))
+    left_out = np.cumsum(found[::-1])[::-1]
+    kept = found[: max(2, int(np.count_nonzero(left_out > LEFT_OUT)))]
+    return (kept / kept.sum()).tolist()
+
+
+def _split(
+    before: NDArray[np.floating], after: NDArray[np.floating], averages: Averages
+) -> tuple[NDArray[np.floating], NDArray[np.floating]]:
+    """Return the band `before` - `after` of the first field, and `after` with the energies of the others."""
+    high = np.empty((len(after), 3), after.dtype)
+    fields = np.empty((len(after), _N + 2), after.dtype)
+
+    def kernel(start: int, stop: int) -> None:
+        part = fields[start:stop]
+        part[:, :_N] = after[start:stop, :_N]
+        band = before[start:stop, :_N] - part[:, :_N]
+        high[start:stop] = band[:, :3]
+        band *= band
+        for to, begin in ((_N, 3), (_N + 1, 6)):
+            np.add(band[:, begin], band[:, begin + 1], out=part[:, to])
+            part[:, to] += band[:, begin + 2]
+
+    averages.for_items(kernel)
+    return high, fields
+
+
+def _add_shrunk(
+    result: NDArray[np.floating],
+    high: NDArray[np.floating],
+    energies: NDArray[np.floating],
+    caution: float,
+    averages: Averages,
+) -> None:
+    """Shrink a band by energies of the noise and of the pilot, and add it."""
+    factor, tiny = high.dtype.type(caution), np.finfo(high.dtype).tiny
+
+    def kernel(start: int, stop: int) -> None:
+        part = slice(start, stop)
+        signal = np.square(energies[part, 1])
+        spoiled = energies[part, 0] * factor
         spoiled *= spoiled
         spoiled += signal
         gain = np.divide(signal, spoiled, out=np.ones_like(signal), where=spoiled > tiny)
-        result += gain[:, None] * high[:, :3]
-        tick()
-    result += low[:, :3]
-    return result
+        for column in range(3):
+            result[part, column] += gain * high[part, column]
 
-
-def unit_rows(vectors: NDArray[np.floating], fallback: NDArray[np.floating]) -> NDArray[np.floating]:
-    """Return vectors, shape (n, 3), scaled to length one; where there is no direction, the fallback."""
-    length = np.sqrt(np.einsum("nc,nc->n", vectors, vectors))[:, None]
-    good = length > np.finfo(vectors.dtype).tiny ** 0.5
-    return np.where(good, vectors / np.where(good, length, 1), fallback)
+    averages.for_items(kernel)

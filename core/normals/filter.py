@@ -9,16 +9,16 @@ from numpy.typing import NDArray
 
 from ..blocks import Blocks
 from ..denoising.constraints import Constraints
-from ..denoising.progress import rms_motion
 from ..denoising.report import Callback
+from ..memory import give_back
 from ..settings import DenoiseSettings
 from ..surface.connectivity import Connectivity
-from ..surface.geometry import face_area_vectors
 from ..surface.surface_mesh import SurfaceMesh
-from .averaging import GuidedAverage
-from .neighbors import edge_neighbors, faces_of_vertices
+from .face_averages import face_averages
+from .neighbors import Ragged, edge_neighbors, faces_of_vertices
+from .noise_sample import area_vectors
 from .pilot import ITERATIONS, Tick, n_rounds, pilot_normals, unit_columns
-from .vertex_update import face_centroids, update_vertices
+from .vertex_fit import VertexFit
 
 
 class _Stopped(Exception):
@@ -76,12 +76,10 @@ def normal_filter(
     steps = 0
     try:
         at_vertex = faces_of_vertices(surface)
-        normals = _filtered_normals(noisy, surface, connectivity, settings, blocks, tick)
-        for step in range(settings.vertex_steps):
-            moved = update_vertices(points, normals, surface, at_vertex, blocks)
-            constraints.apply(moved, noisy)
-            change = rms_motion(moved, points, blocks)
-            points, steps = moved, step + 1
+        normals = _filtered_normals(noisy, surface, connectivity, at_vertex, settings, blocks, tick)
+        fit = VertexFit(surface, at_vertex, blocks).steps(noisy, normals)
+        for moved, change in fit.points(settings.vertex_steps, constraints):
+            points, steps = moved, steps + 1
             tick(change)
     except _Stopped:
         return points, steps, True
@@ -92,27 +90,27 @@ def _filtered_normals(
     noisy: NDArray[np.floating],
     surface: SurfaceMesh,
     connectivity: Connectivity,
+    at_vertex: Ragged,
     settings: DenoiseSettings,
     blocks: Blocks,
     tick: Tick,
 ) -> NDArray[np.floating]:
     """Return clean unit normals, shape (3, F)."""
     neighbors = edge_neighbors(surface, connectivity)
-    area_vectors = np.ascontiguousarray(face_area_vectors(surface.with_vertices(noisy.T)).T, noisy.dtype)
-    areas = np.sqrt((area_vectors * area_vectors).sum(axis=0))
-    noisy_normals = unit_columns(area_vectors, np.zeros_like(area_vectors))
+    vectors = area_vectors(noisy, surface, blocks)
+    areas = np.sqrt((vectors * vectors).sum(axis=0))
+    noisy_normals = unit_columns(vectors, np.zeros_like(vectors))
     normals = pilot_normals(
         noisy_normals, neighbors, settings.normal_threshold, settings.sharpness, blocks, tick
     )
     if not settings.average_steps:
         return normals
-    centroids = face_centroids(noisy, surface)
-    own = np.repeat(np.arange(surface.n_faces), np.diff(neighbors.offset))
-    apart = centroids[:, neighbors.neighbor] - centroids[:, own]
-    distance = np.sqrt((apart * apart).sum(axis=0))
-    spatial_sigma = float(distance[distance > 0].mean()) if distance.any() else 1.0
-    at_vertex = faces_of_vertices(surface)
-    average = GuidedAverage(surface, at_vertex, centroids, areas, spatial_sigma, blocks)
+    del vectors
+    averages = face_averages(noisy, surface, at_vertex, neighbors, areas, blocks)
+    del neighbors
+    give_back(surface.n_faces)
     for _ in range(settings.passes):
-        normals = average.smooth(noisy_normals, normals, settings.sigma_n, settings.average_steps, tick)
+        normals = averages.smooth(
+            noisy_normals, averages.weights(normals, settings.sigma_n), settings.average_steps, tick
+        )
     return normals

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ..surface.connectivity import Connectivity
 from ..surface.surface_mesh import SurfaceMesh
 from ..transform.adaptive_level import Neighbors
+from .averages import BITS, TILE, Members, united
 
 
 class Ragged(NamedTuple):
@@ -27,7 +28,7 @@ def edge_neighbors(surface: SurfaceMesh, connectivity: Connectivity) -> Neighbor
     own = np.repeat(np.arange(surface.n_faces, dtype=np.int32), sizes)
     across = np.where(connectivity.face_across >= 0, connectivity.face_across, own)
     nothing = np.zeros(surface.n_faces, bool)
-    return Neighbors(surface.face_offset.astype(np.int64), across, nothing, nothing)
+    return Neighbors(surface.face_offset, across, nothing, nothing)
 
 
 def faces_of_vertices(surface: SurfaceMesh) -> Ragged:
@@ -38,19 +39,32 @@ def faces_of_vertices(surface: SurfaceMesh) -> Ragged:
     return Ragged(np.concatenate(([0], np.cumsum(counts))), own[order])
 
 
-def faces_around(surface: SurfaceMesh, at_vertex: Ragged, start: int, stop: int) -> Ragged:
-    """Return the faces that share a vertex with each face of a range, the face itself included, ascending."""
-    begin, end = surface.face_offset[start], surface.face_offset[stop]
-    vertex = surface.corner_vertex[begin:end]
-    counts = at_vertex.offset[vertex + 1] - at_vertex.offset[vertex]
-    place = np.arange(counts.sum()) + np.repeat(
-        at_vertex.offset[vertex] - (np.cumsum(counts) - counts), counts
+MOST_FACES = 64
+"""Faces at a vertex beyond which they do not count as neighbors by way of that vertex: the number of pairs
+would grow with the square. In a fan they are neighbors by way of its rim, edge by edge."""
+
+
+def members_around(surface: SurfaceMesh, at_vertex: Ragged, faces: NDArray[np.integer]) -> Members:
+    """Return the faces that share a vertex with the faces of tiles, shape (n, TILE), themselves included.
+
+    Faces without a corner share none.
+    """
+    n_tiles = len(faces)
+    flat = faces.ravel()
+    begin = surface.face_offset[flat]
+    sizes = surface.face_offset[flat + 1] - begin
+    place = np.repeat(np.arange(flat.size), sizes)
+    corner = np.arange(len(place)) + np.repeat(begin - (np.cumsum(sizes) - sizes), sizes)
+    tile, item = np.divmod(place, TILE)
+    vertices = united(Members(tile, surface.corner_vertex[corner], BITS[item]), n_tiles, surface.n_vertices)
+    counts = at_vertex.offset[vertices.member + 1] - at_vertex.offset[vertices.member]
+    counts[counts > MOST_FACES] = 0
+    first = at_vertex.offset[vertices.member] - (np.cumsum(counts) - counts)
+    around = at_vertex.items[np.arange(counts.sum()) + np.repeat(first, counts)]
+    tile = np.repeat(np.repeat(np.arange(n_tiles), np.diff(vertices.offset)), counts)
+    filled = np.flatnonzero(sizes)
+    return Members(
+        np.concatenate((tile, filled // TILE)),
+        np.concatenate((around, flat[filled])),
+        np.concatenate((np.repeat(vertices.bits, counts), BITS[filled % TILE])),
     )
-    row = np.repeat(np.repeat(np.arange(stop - start), surface.face_sizes()[start:stop]), counts)
-    keys = row * surface.n_faces + at_vertex.items[place]
-    keys.sort()
-    is_first = np.ones(len(keys), bool)
-    np.not_equal(keys[1:], keys[:-1], out=is_first[1:])
-    row, face = np.divmod(keys[is_first], max(surface.n_faces, 1))
-    found = np.bincount(row, minlength=stop - start)
-    return Ragged(np.concatenate(([0], np.cumsum(found))), face.astype(np.int32))

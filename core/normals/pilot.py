@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
-from ..frames.valence_masks import PairwiseBank
-from ..transform.adaptive_level import AdaptiveLevel, Neighbors
-from ..transform.level import Chunk
+from ..transform.adaptive_level import Neighbors
+from .face_pairs import FacePairs
+from .parts import empty_parts
 
 COUPLING = 10.0
 """Penalty mu; far larger than 1, so that a step changes directions little and normalizing is harmless."""
@@ -67,67 +67,81 @@ def pilot_normals(
     -----
     n <- normalize((n0 + mu W*(d - b)) / (1 + mu)), d <- T(W n + b), b <- b + W n - d, where T shrinks each
     difference vector. Low-pass weights are equal, 1 / (k + 1) for a face with k edges, so that on closed
-    meshes of one kind of faces the measure is constant.
+    meshes of one kind of faces the measure is constant. As W* W n = n, and with the new b', W*(d - b') is
+    n + W*(b - 2 b'), in which only differences count: the low-pass is neither made nor sent back.
     """
-    level = AdaptiveLevel(neighbors, _EqualBank, np.ones(noisy.shape[1]), noisy.dtype, blocks)
-    scale = median_difference(noisy, neighbors) if unit is None else unit
-    shrink = _Reweighted(len(level.sites), threshold * scale, sharpness)
+    pairs = FacePairs(neighbors, blocks)
+    scale = median_difference(noisy, neighbors, blocks) if unit is None else unit
+    shrink = _Reweighted(pairs, threshold * scale, sharpness, noisy.dtype)
     mu = noisy.dtype.type(COUPLING)
     normals = noisy
     for round_ in range(n_rounds(sharpness)):
         if round_:
-            level.forward(normals, shrink.reweigh)
-        normals = noisy
+            pairs.visit(normals, shrink.reweigh)
+        normals = noisy.copy()
         for _ in range(ITERATIONS):
-            low, pending = level.forward(normals, shrink)
-            normals = unit_columns(noisy + mu * level.backward(low, pending), noisy)
+            returned = pairs.returned(normals, shrink)
+
+            def step(
+                faces: NDArray[np.int32] | slice,
+                change: NDArray[np.floating],
+                normals: NDArray[np.floating] = normals,
+            ) -> None:
+                change += normals[:, faces]
+                change *= mu
+                change += noisy[:, faces]
+                normals[:, faces] = unit_columns(change, noisy[:, faces])
+
+            returned.for_faces(step)
             tick()
     return normals
 
 
-class _EqualBank(PairwiseBank):
-    """Differences with equal weights: a pair of normals has the coefficient (n_i - n_j) / (k + 1)."""
-
-    def __init__(self, valence: int) -> None:
-        super().__init__(valence, np.full(valence + 1, 1.0 / (valence + 1)))
-
-
 class _Reweighted:
-    """Turns differences y into y - 2 b with thresholds of their own, and keeps b."""
+    """Turns differences n_i - n_j into b - 2 b' with thresholds of their own, and keeps b'.
 
-    def __init__(self, n_chunks: int, threshold: float, sharpness: float) -> None:
-        self._threshold = threshold
-        self._sharpness = sharpness
-        self._residual: list[Chunk | None] = [None] * n_chunks
-        self._factor: list[NDArray[np.floating] | None] = [None] * n_chunks
+    All are k + 1 times those of the coefficients.
+    """
 
-    def __call__(self, index: int, high: Chunk) -> None:
-        """Shrink a chunk in place; a `Visit`."""
-        residual = self._residual[index]
-        if residual is not None:
-            high += residual
-        norm = _lengths(high)
-        threshold = high.dtype.type(self._threshold)
+    def __init__(self, pairs: FacePairs, threshold: float, sharpness: float, dtype: np.dtype) -> None:
+        self._thresholds = [dtype.type(threshold * len(chunk.taps)) for chunk in pairs.chunks]
+        self._sharpness = dtype.type(max(sharpness, float(np.finfo(dtype).tiny)))
+        self._smallest = np.finfo(dtype).tiny
+        # Of k + 1 taps there are k (k + 1) / 2 pairs.
+        shapes = [(3, len(taps) * (len(taps) - 1) // 2, taps.shape[1]) for taps, _ in pairs.chunks]
+        self._residual = empty_parts(shapes, dtype)
+        self._is_started = [False] * len(pairs.chunks)
+        self._factor: list[NDArray[np.floating] | None] = [None] * len(pairs.chunks)
+
+    def __call__(self, index: int, apart: NDArray[np.floating]) -> None:
+        """Shrink a chunk in place; a `Change`."""
+        residual, is_started = self._residual[index], self._is_started[index]
+        if is_started:
+            apart += residual
+        norm = _lengths(apart)
         factor = self._factor[index]
-        limit = threshold if factor is None else threshold * factor
-        np.maximum(norm, np.maximum(limit, np.finfo(high.dtype).tiny), out=norm)
+        limit = self._thresholds[index] if factor is None else self._thresholds[index] * factor
+        np.maximum(norm, np.maximum(limit, self._smallest), out=norm)
         np.divide(limit, norm, out=norm)
-        cut = high * norm
-        self._residual[index] = cut
-        high -= cut
-        high -= cut
+        apart *= norm
+        if is_started:
+            back = residual - apart
+            back -= apart
+            residual[...] = apart
+            apart[...] = back
+        else:
+            residual[...] = apart
+            apart *= -2
+        self._is_started[index] = True
 
-    def reweigh(self, index: int, high: Chunk) -> None:
-        """Set the factors of a chunk from its differences, and start afresh; a `Visit`."""
-        # Coefficients are differences divided by k + 1, and there are k (k + 1) / 2 of them.
-        n_slots = (1.0 + np.sqrt(1.0 + 8.0 * high.shape[1])) / 2.0
-        eps = high.dtype.type(max(self._sharpness, float(np.finfo(high.dtype).tiny)))
-        self._factor[index] = eps / (_lengths(high) * high.dtype.type(n_slots) + eps)
-        self._residual[index] = None
+    def reweigh(self, index: int, apart: NDArray[np.floating]) -> None:
+        """Set the factors of a chunk from its differences, and start afresh; a `Change`."""
+        self._factor[index] = self._sharpness / (_lengths(apart) + self._sharpness)
+        self._is_started[index] = False
 
 
-def _lengths(vectors: Chunk) -> NDArray[np.floating]:
-    """Return lengths, shape (H, n), of vectors (3, H, n)."""
+def _lengths(vectors: NDArray[np.floating]) -> NDArray[np.floating]:
+    """Return lengths, shape (...), of vectors (3, ...)."""
     squares = vectors[0] * vectors[0]
     squares += vectors[1] * vectors[1]
     squares += vectors[2] * vectors[2]
@@ -141,12 +155,26 @@ def unit_columns(vectors: NDArray[np.floating], fallback: NDArray[np.floating]) 
     return np.where(good, vectors / np.where(good, length, 1), fallback)
 
 
-def median_difference(normals: NDArray[np.floating], neighbors: Neighbors) -> float:
+def median_difference(
+    normals: NDArray[np.floating], neighbors: Neighbors, blocks: Blocks | None = None
+) -> float:
     """Return the median of |n_f - n_g| over neighboring faces, 0.0 if no face has a neighbor."""
-    counts = np.diff(neighbors.offset)
-    own = np.repeat(np.arange(len(counts)), counts)
-    apart = own < neighbors.neighbor  # every pair once, and no face with itself
-    if not apart.any():
-        return 0.0
-    difference = normals[:, own[apart]] - normals[:, neighbors.neighbor[apart]]
-    return float(np.median(np.sqrt((difference * difference).sum(axis=0))))
+    apart = neighbor_distances(normals, neighbors, blocks)
+    return float(np.median(apart)) if len(apart) else 0.0
+
+
+def neighbor_distances(
+    values: NDArray[np.floating], neighbors: Neighbors, blocks: Blocks | None = None
+) -> NDArray[np.floating]:
+    """Return |v_f - v_g| of all neighboring faces f < g, shape (n,), for values of shape (3, F)."""
+    offset = neighbors.offset
+
+    def kernel(start: int, stop: int) -> NDArray[np.floating]:
+        own = np.repeat(np.arange(start, stop, dtype=np.int32), np.diff(offset[start : stop + 1]))
+        other = neighbors.neighbor[offset[start] : offset[stop]]
+        once = np.flatnonzero(own < other)  # every pair once, and no face with itself
+        apart = values.take(own[once], axis=1)
+        apart -= values.take(other[once], axis=1)
+        return _lengths(apart)
+
+    return np.concatenate((blocks or Blocks(1)).run(kernel, len(offset) - 1))

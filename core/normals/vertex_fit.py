@@ -4,22 +4,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
+from ..denoising.constraints import Constraints
+from ..denoising.progress import rms_motion
 from ..surface.surface_mesh import SurfaceMesh
-from .averages import Averages, Group
+from .means import Means, padded
 from .neighbors import Ragged
-from .vertex_update import face_centroids
 
 
 class VertexFit:
-    """The steps of `vertex_update.update_vertices`, for the displacement instead of the position.
+    """In a step each face pulls its vertices towards the plane through its centroid with the wanted normal.
 
-    With the mean over the faces f at a vertex, a step is u <- u + r + mean(n_f <n_f, c_f(u)>) - Q u: r is the
-    step at the start, c_f(u) the mean displacement of the corners, and Q = mean(n_f n_f'). All of them are
-    small, so that single precision loses nothing, and each face is looked at once.
+    A vertex v moves by the mean over its faces f of n_f <n_f, c_f - v>, with centroids c_f. For the
+    displacement u that is u <- u + r + mean(n_f <n_f, c_f(u)>) - Q u: r is the step at the start, c_f(u) the
+    mean displacement of the corners, and Q = mean(n_f n_f'). All of them are small, so that single precision
+    loses nothing, and each face is looked at once. Loose vertices stay.
 
     Parameters
     ----------
@@ -32,60 +36,119 @@ class VertexFit:
     """
 
     def __init__(self, surface: SurfaceMesh, at_vertex: Ragged, blocks: Blocks) -> None:
-        self._surface = surface
+        self.surface, self.blocks = surface, blocks
+        self.faces = Means(at_vertex, blocks, is_square=False)
+        size = surface.common_face_size()
+        self.corners: NDArray[np.int32] | None = None  # (K, F), if all have as many, numbered inside `faces`
+        if size:
+            place = self.faces.place.take(surface.corner_vertex)
+            self.corners = np.ascontiguousarray(place.reshape(-1, size).T)
 
-        def around(start: int, stop: int) -> Ragged:
-            offset = at_vertex.offset[start : stop + 1]
-            return Ragged(offset - offset[0], at_vertex.items[offset[0] : offset[-1]])
-
-        def equal(group: Group) -> NDArray[np.floating]:
-            return np.full(group.members.shape, 1.0 / group.members.shape[1])
-
-        self._faces = Averages(around, surface.n_vertices, blocks)
-        self._weights = self._faces.for_groups(equal)
+    def corner_means(self, rows: NDArray[np.floating], begin: int, end: int) -> NDArray[np.floating]:
+        """Return the means of the corners of a range of faces, shape (n, 4), from values inside `faces`."""
+        if self.corners is not None:
+            total = rows.take(self.corners[0, begin:end], axis=0)
+            for corner in self.corners[1:, begin:end]:
+                total += rows.take(corner, axis=0)
+            total *= rows.dtype.type(1.0 / len(self.corners))
+            return total
+        offset = self.surface.face_offset[begin : end + 1]
+        sizes = np.diff(offset)
+        filled = sizes > 0
+        total = np.zeros((end - begin, rows.shape[1]), rows.dtype)
+        if filled.any():
+            corners = self.faces.place.take(self.surface.corner_vertex[offset[0] : offset[-1]])
+            begins = (offset[:-1] - offset[0])[filled]
+            total[filled] = np.add.reduceat(rows.take(corners, axis=0), begins, axis=0)
+            total[filled] /= sizes[filled, None].astype(rows.dtype)
+        return total
 
     def steps(self, start: NDArray[np.floating], normals: NDArray[np.floating]) -> VertexSteps:
         """Begin to fit: `start` are positions (3, N), `normals` wanted unit normals (3, F)."""
         return VertexSteps(self, start, normals)
-
-    def mean(self, field: NDArray[np.floating]) -> NDArray[np.floating]:
-        """Return means over the faces at each vertex, shape (N, C), of a field (F, C)."""
-        if self._weights and self._weights[0] and self._weights[0][0].dtype != field.dtype:
-            self._weights = [[part.astype(field.dtype) for part in block] for block in self._weights]
-        return self._faces.average(self._weights, field)
-
-    def centroids(self, points: NDArray[np.floating]) -> NDArray[np.floating]:
-        """Return the means of the corners, shape (3, F)."""
-        return face_centroids(points, self._surface)
-
-    def start_of_corners(
-        self, start: NDArray[np.floating], normals: NDArray[np.floating]
-    ) -> NDArray[np.floating]:
-        """Return r, shape (N, 3): the mean over the faces at a vertex of n <n, c - v>."""
-        surface = self._surface
-        sizes = surface.face_sizes()
-        own = np.repeat(np.arange(surface.n_faces), sizes)
-        arm = self.centroids(start)[:, own] - start[:, surface.corner_vertex]
-        corner_normals = normals[:, own]
-        pull = corner_normals * np.einsum("cn,cn->n", corner_normals, arm)
-        counts = np.bincount(surface.corner_vertex, minlength=surface.n_vertices)
-        sums = [np.bincount(surface.corner_vertex, row, minlength=surface.n_vertices) for row in pull]
-        return (np.stack(sums, axis=1) / np.maximum(counts, 1)[:, None]).astype(start.dtype)
 
 
 class VertexSteps:
     """A fit that is under way."""
 
     def __init__(self, fit: VertexFit, start: NDArray[np.floating], normals: NDArray[np.floating]) -> None:
-        self._fit, self._normals = fit, normals
-        self._first = fit.start_of_corners(start, normals)
-        outer = (normals[:, None] * normals[None]).reshape(9, -1)
-        self._mean_outer = fit.mean(np.ascontiguousarray(outer.T)).reshape(-1, 3, 3)
+        self._fit, self._start, self._normals = fit, start, np.ascontiguousarray(normals)
+        dtype, n_vertices = start.dtype, start.shape[1]
+        self._first = np.zeros((n_vertices, 4), dtype)  # r
+        self._outer = np.zeros((6, n_vertices), dtype)  # the entries of Q that differ
+        self._pull = np.zeros((normals.shape[1], 4), dtype)
+        points = fit.faces.inward(padded(start))
+        centroids = np.empty((normals.shape[1], 4), dtype)
+
+        def center(begin: int, end: int) -> None:
+            centroids[begin:end] = fit.corner_means(points, begin, end)
+
+        fit.blocks.run(center, len(centroids))
+        rows = padded(normals)
+
+        def begin(part: slice, members: NDArray[np.int32]) -> None:
+            if not len(members):
+                return
+            arm = centroids.take(members, axis=0)
+            arm -= points[part]
+            normal = np.ascontiguousarray(np.moveaxis(rows.take(members, axis=0), 2, 0))
+            along = normal[0] * arm[..., 0]
+            along += normal[1] * arm[..., 1]
+            along += normal[2] * arm[..., 2]
+            share = dtype.type(1.0 / len(members))
+            for i in range(3):
+                self._first[part, i] = (normal[i] * along).sum(axis=0) * share
+            for entry, (i, j) in enumerate(_ENTRIES):
+                self._outer[entry, part] = (normal[i] * normal[j]).sum(axis=0) * share
+
+        fit.faces.for_parts(begin)
+
+    def points(
+        self,
+        n_steps: int,
+        constraints: Constraints | None = None,
+        origin: NDArray[np.floating] | None = None,
+    ) -> Iterator[tuple[NDArray[np.floating], float]]:
+        """Yield positions, shape (3, N), and the rms motion of the vertices, after each step.
+
+        Constraints hold vertices at `origin`, shape (3, N), which is by default where the fit started.
+        """
+        origin = self._start if origin is None else origin
+        displacement = np.zeros_like(self._start)
+        for _ in range(n_steps):
+            before, displacement = displacement, self.advance(displacement)
+            points = self._start + displacement
+            if constraints is not None:
+                constraints.apply(points, origin)
+                displacement = points - self._start
+            yield points, rms_motion(displacement, before, self._fit.blocks)
 
     def advance(self, displacement: NDArray[np.floating]) -> NDArray[np.floating]:
         """Return the displacement, shape (3, N), after another step."""
-        normals = self._normals
-        pull = normals * np.einsum("cf,cf->f", normals, self._fit.centroids(displacement))
-        change = self._fit.mean(np.ascontiguousarray(pull.T)) + self._first
-        change -= np.einsum("nij,jn->ni", self._mean_outer, displacement)
-        return displacement + change.T
+        fit, normals, pull = self._fit, self._normals, self._pull
+        rows = fit.faces.inward(padded(displacement))
+
+        def project(begin: int, end: int) -> None:
+            middle = fit.corner_means(rows, begin, end)
+            normal = normals[:, begin:end]
+            along = normal[0] * middle[:, 0]
+            along += normal[1] * middle[:, 1]
+            along += normal[2] * middle[:, 2]
+            for i in range(3):
+                np.multiply(normal[i], along, out=pull[begin:end, i])
+
+        def step(part: slice, means: NDArray[np.floating]) -> None:
+            own = [np.ascontiguousarray(rows[part, i]) for i in range(3)]
+            for (i, j), entry in zip(_ENTRIES, self._outer, strict=True):
+                means[:, i] -= entry[part] * own[j]
+                if i != j:
+                    means[:, j] -= entry[part] * own[i]
+            means += self._first[part]
+            rows[part] += means
+
+        fit.blocks.run(project, normals.shape[1])
+        fit.faces.visit(pull, step)
+        return np.ascontiguousarray(fit.faces.outward(rows)[:, :3].T)
+
+
+_ENTRIES = ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))

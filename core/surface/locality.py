@@ -112,11 +112,11 @@ def stable_order(keys: NDArray[np.integer], limit: int) -> NDArray[np.int32]:
 
     Stable sorts of 16 bits count instead of comparing, so that two of them are faster than one of 32.
     """
-    order = np.argsort(keys.astype(np.uint16), kind="stable")
+    order = np.argsort(keys.astype(np.uint16), kind="stable").astype(np.int32)
     if limit > 2**16:
-        high = (keys >> 16).astype(np.uint16)
-        order = order[np.argsort(high[order], kind="stable")]
-    return order.astype(np.int32)
+        high = (keys >> 16).astype(np.uint16)[order]
+        order = order[np.argsort(high, kind="stable")]
+    return order
 
 
 def _spread(cells: NDArray[np.uint32]) -> NDArray[np.uint32]:

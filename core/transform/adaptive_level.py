@@ -26,7 +26,7 @@ class Neighbors(NamedTuple):
 
     Attributes
     ----------
-    offset : ndarray, shape (N + 1,), int64
+    offset : ndarray of int, shape (N + 1,)
         The neighbors of site k are `neighbor[offset[k]:offset[k + 1]]`.
     neighbor : ndarray of int32
         Sites.
@@ -36,7 +36,7 @@ class Neighbors(NamedTuple):
         Sites whose details shrinkage leaves alone.
     """
 
-    offset: NDArray[np.int64]
+    offset: NDArray[np.integer]
     neighbor: NDArray[np.int32]
     is_ordered: NDArray[np.bool_]
     is_kept: NDArray[np.bool_]
@@ -60,7 +60,7 @@ def ring_neighbors(members: Members, boundary: str) -> Neighbors:
 class _Source(NamedTuple):
     """Vertices, shape (n,), and the places of their taps in the flat list of all taps, shape (count, n)."""
 
-    vertices: NDArray[np.intp]
+    vertices: NDArray[np.int32]
     places: NDArray[np.int32]
 
 
@@ -70,7 +70,7 @@ class _Chunk:
     def __init__(
         self,
         bank: HarmonicBank | PairwiseBank,
-        vertices: NDArray[np.intp],
+        vertices: NDArray[np.int32],
         taps: NDArray[np.int32],
         begin: int,
         unpenalized: slice,
@@ -123,6 +123,10 @@ class AdaptiveLevel:
             measure += np.bincount(chunk.taps.ravel(), flow.ravel(), self._n)
         return measure
 
+    def prepare(self) -> None:
+        """Find what `forward` and `backward` need."""
+        self._sources  # noqa: B018
+
     @cached_property
     def _sources(self) -> list[_Source]:
         """Where the taps of each vertex stand, as (vertices, places) of as many taps each."""
@@ -133,7 +137,7 @@ class AdaptiveLevel:
         # Every vertex is at least its own tap, so that no count is zero.
         sources: list[_Source] = []
         for count in np.unique(counts):
-            group = np.flatnonzero(counts == count)
+            group = np.flatnonzero(counts == count).astype(np.int32)
             size = max(1, SLOTS_PER_CHUNK // int(count))
             for part in np.split(group, range(size, len(group), size)):
                 sources.append(_Source(part, order[begin[part] + np.arange(count)[:, None]]))
@@ -162,7 +166,7 @@ class AdaptiveLevel:
         return taps.reshape(3, -1)
 
     @property
-    def sites(self) -> Sequence[NDArray[np.intp]]:
+    def sites(self) -> Sequence[NDArray[np.integer]]:
         """For each chunk, its vertices."""
         return [chunk.vertices for chunk in self._chunks]
 
@@ -273,7 +277,7 @@ def _make_chunks(neighbors: Neighbors, family: type[HarmonicBank] | type[Pairwis
             kind = (neighbors.is_ordered == is_ordered) & (neighbors.is_kept == is_kept)
             for count in np.unique(counts[kind]):
                 bank = _make_bank(family, int(count), is_ordered)
-                group = np.flatnonzero(kind & (counts == count))
+                group = np.flatnonzero(kind & (counts == count)).astype(np.int32)
                 size = max(1, SLOTS_PER_CHUNK // bank.n_bands)
                 for part in np.split(group, range(size, len(group), size)):
                     taps = np.empty((count + 1, len(part)), np.int32)

@@ -28,7 +28,7 @@ class Level(Protocol):
     """
 
     @property
-    def sites(self) -> Sequence[NDArray[np.intp] | slice]:
+    def sites(self) -> Sequence[NDArray[np.integer] | slice]:
         """For each chunk, which sites it holds."""
         ...
 

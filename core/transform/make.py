@@ -10,6 +10,7 @@ from numpy.typing import DTypeLike, NDArray
 from ..blocks import Blocks
 from ..frames import BANKS, FilterBank
 from ..frames.valence_masks import FAMILIES
+from ..memory import give_back
 from ..stencils import make_stencil
 from ..stencils.dilation import dilate
 from ..stencils.members import one_ring_members
@@ -128,9 +129,12 @@ def _adaptive_transform(
             low = low.with_vertices(np.ascontiguousarray(level.low_pass(points).T))
     measure: NDArray[np.float64] = one
     levels: list[AdaptiveLevel] = []
-    for chosen in reversed(neighbors):
-        level = AdaptiveLevel(chosen, family, measure, dtype, blocks)
+    del members, dilated, low
+    while neighbors:
+        give_back(surface.n_vertices)
+        level = AdaptiveLevel(neighbors.pop(), family, measure, dtype, blocks)
         levels.insert(0, level)
+        level.prepare()  # now, as later there is less memory left
         measure = level.measure
     return FrameTransform(tuple(levels), dtype)
 

@@ -26,6 +26,9 @@ from blender_window.sidebar import press, start_fresh  # noqa: E402
 
 IMAGES = ROOT / "docs" / "images"
 SIZES = {1: (1180, 920), 2: (2080, 1840)}
+N_COLORS = {1: 256, 2: 96}
+"""Of pictures by their scale, so that large ones take less than 300 kB."""
+
 PATIENCE = 300.0
 TEXT = 130
 """What is brighter than this in a panel is text; the viewport behind the sidebar is darker."""
@@ -154,7 +157,7 @@ def take(session: Session, shot: Shot) -> None:
     session.settle(2.0)
     picture = session.picture() if shot.part == "WINDOW" else cut(session, shot.part)
     name = shot.file(session.scale)
-    write_png(IMAGES / f"{name}.png", picture)
+    write_png(IMAGES / f"{name}.png", picture, N_COLORS[int(session.scale)])
     print(f"Wrote {name}.png to {IMAGES}.", flush=True)
     if session.run("result = hasattr(bpy.types, 'OBJECT_OT_framelet_cancel')"):
         session.run("if bpy.ops.object.framelet_cancel.poll(): bpy.ops.object.framelet_cancel()")

@@ -218,7 +218,7 @@ def test_saved_files_have_the_original(settings, tmp_path):
     settings.lambda_ = 0.7
     settle(session)
     assert not same(points(obj.data), shown)
-    bpy.ops.wm.open_mainfile(filepath=path)
+    bpy.ops.wm.open_mainfile(filepath=path, load_ui=False)
     assert current_preview.current_preview() is None
     mesh = bpy.data.objects["Monkey"].data
     assert same(points(mesh), before)
@@ -234,7 +234,7 @@ def test_files_that_blender_saved_by_itself_are_put_right(settings, tmp_path, mo
     monkeypatch.setattr(session, "suspend", lambda: None)
     path = str(tmp_path / "recovered.blend")
     bpy.ops.wm.save_as_mainfile(filepath=path)
-    bpy.ops.wm.open_mainfile(filepath=path)
+    bpy.ops.wm.open_mainfile(filepath=path, load_ui=False)
     mesh = bpy.data.objects["Monkey"].data
     assert same(points(mesh), before)
     assert_clean(mesh)

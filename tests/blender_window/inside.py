@@ -20,6 +20,7 @@ import types
 import bpy
 
 FOLDER = sys.argv[sys.argv.index("--") + 1]
+PARENT = os.getppid()
 PAUSE = 0.01
 """Seconds between two looks at the folder."""
 
@@ -61,6 +62,9 @@ def override(kind: str = "WINDOW"):
 def tick() -> float:
     """Begin a request, if there is one, or take its next step."""
     global steps
+    if os.getppid() != PARENT:
+        # Those who asked were killed, and nobody else will end this Blender.
+        os._exit(1)
     ticks.append(time.monotonic())
     path = os.path.join(FOLDER, f"{next_number}.py")
     try:

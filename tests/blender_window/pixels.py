@@ -36,9 +36,9 @@ def read_screen(path: Path) -> np.ndarray:
     return blue_first[:, :, 2::-1].copy()
 
 
-def write_png(path: Path, picture: np.ndarray) -> None:
-    """Write a picture, shape (height, width, 3), with at most 256 colors."""
-    palette, indices = to_palette(picture)
+def write_png(path: Path, picture: np.ndarray, n_colors: int = N_COLORS) -> None:
+    """Write a picture, shape (height, width, 3), with at most 256 colors; fewer make a smaller file."""
+    palette, indices = to_palette(picture, n_colors)
     height, width = indices.shape
     rows = np.zeros((height, width + 1), np.uint8)  # each row begins with the number of a filter, none
     rows[:, 1:] = indices
@@ -55,8 +55,8 @@ def _write_chunk(file, name: bytes, content: bytes) -> None:
     file.write(struct.pack(">I", zlib.crc32(name + content)))
 
 
-def to_palette(picture: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return at most 256 colors, shape (n, 3), and the index of each pixel's color.
+def to_palette(picture: np.ndarray, n_colors: int = N_COLORS) -> tuple[np.ndarray, np.ndarray]:
+    """Return at most `n_colors` colors, shape (n, 3), and the index of each pixel's color.
 
     The colors are boxes of the color cube, each cut in two where it is longest, the fullest and widest first.
     """
@@ -65,7 +65,7 @@ def to_palette(picture: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     colors = np.stack([codes >> 16, codes >> 8 & 255, codes & 255], axis=1).astype(np.float64)
     boxes = [np.arange(len(codes))]
     spreads = [_spread(colors, counts, boxes[0])]
-    while len(boxes) < N_COLORS and max(spreads) > 0:
+    while len(boxes) < n_colors and max(spreads) > 0:
         place = int(np.argmax(spreads))
         box = boxes[place]
         axis = int(np.argmax(np.ptp(colors[box], axis=0)))
@@ -93,7 +93,7 @@ def changed(before: np.ndarray, after: np.ndarray, threshold: int = 12) -> float
     return float((difference > threshold).mean())
 
 
-def saturated(picture: np.ndarray, threshold: int = 60) -> float:
+def saturated(picture: np.ndarray, threshold: int = 30) -> float:
     """Return the share of pixels with a color that is far from gray."""
     return float((np.ptp(picture.astype(np.int16), axis=2) > threshold).mean())
 

@@ -250,6 +250,18 @@ class Session:
         """Return what is on the screen, shape (height, width, 3), rows from the top."""
         return read_screen(self.folder / "Xvfb_screen0")
 
+    def still_picture(self) -> np.ndarray:
+        """Return what is on the screen once nothing changes any more."""
+        pictures = [self.picture()]
+
+        def is_still() -> bool:
+            pictures.append(self.picture())
+            return np.array_equal(pictures[-1], pictures[-2])
+
+        self.settle(0.3)
+        self.until(is_still)
+        return pictures[-1]
+
     def box(self, kind: str = "WINDOW") -> tuple[int, int, int, int]:
         """Return left, bottom, width and height of a region of the viewport, in pixels.
 

@@ -76,6 +76,19 @@ SHAPES = {
     "quad cylinder": cylinder,
     "cylinder": lambda: cylinder(size=3),
 }
+SMALL = {
+    "averages.TILES_IN_BLOCK": 5,
+    "averages.MEMBERS_AT_ONCE": 200,
+    "averages.CHUNKS_AT_ONCE": 1,
+    "averages.ITEMS_AT_ONCE": 64,
+    "means.ITEMS_IN_BLOCK": 50,
+    "means.MEMBERS_AT_ONCE": 100,
+    "means.CHUNKS_AT_ONCE": 1,
+    "face_pairs.TAPS_AT_ONCE": 100,
+    "face_pairs.CHUNKS_AT_ONCE": 2,
+}
+"""Sizes of pieces of work, so that even small meshes have several."""
+
 MOVED = {
     "closed": lambda: flipped(triangle_torus()),
     "mixed": lambda: union(mixed_sheet(), pyramid(9), flipped(triangle_torus(6, 7))),
@@ -121,6 +134,8 @@ def test_single_precision_is_near_double_precision(name):
 def test_threads_and_blocks_do_not_change_a_bit(rng, monkeypatch):
     mesh = noisy(union(flipped(triangle_torus()), mixed_sheet()), rng)
     monkeypatch.setattr(blocks.Blocks.__init__, "__defaults__", (0, 100))
+    for name, value in SMALL.items():
+        monkeypatch.setattr(f"framelet.core.normals.{name}", value)
     one = denoise(mesh, AUTO.with_changes(threads=1))
     two = denoise(mesh, AUTO.with_changes(threads=2))
     assert_same_bits(one.vertices, two.vertices)

@@ -10,12 +10,16 @@ from checks import assert_same_bits, lengths
 from framelet.core import SurfaceMesh, connect
 from framelet.core.automatic import choose, patches
 from framelet.core.automatic.patches import trial_part
-from framelet.core.automatic.recipes import NormalProblem
+from framelet.core.automatic.problem import NormalProblem
+from framelet.core.automatic.recipes import RECIPES
 from framelet.core.automatic.smooth_positions import ORDER, RingAverages, smooth_positions
 from framelet.core.blocks import Blocks
+from framelet.core.denoising.constraints import find_constraints
 from framelet.core.normals.folds import unfold
 from framelet.core.normals.noise_sample import area_vectors
+from framelet.core.settings import PRESETS
 from meshes import MESHES, faces_of, noisy, soup, triangle_grid, triangle_torus, union
+from twins import faces_across, newell
 
 ROUNDING = 1e-12
 ALONE = Blocks(1)
@@ -39,7 +43,8 @@ def test_averages_over_rings(kind, blocks, rng):
     mesh = KINDS[kind]()
     connectivity = connect(mesh)
     rings = RingAverages(connectivity, blocks)
-    found = rings.average(rings.weights(0.5, np.dtype(float)), np.eye(mesh.n_vertices))
+    means = rings.outward(rings.mean(rings.inward(np.eye(mesh.n_vertices))))
+    found = 0.5 * means + 0.5 * np.eye(mesh.n_vertices)
     expected = np.zeros_like(found)
     for v, (a, b) in enumerate(pairwise(connectivity.ring_offset)):
         near, ends = connectivity.ring[a:b], connectivity.boundary_neighbors[v]
@@ -53,6 +58,22 @@ def test_averages_over_rings(kind, blocks, rng):
         power = np.linalg.matrix_power(np.eye(len(found)) - np.linalg.matrix_power(found, k), ORDER)
         smooth = smooth_positions(mesh.vertices.T.copy(), rings, k).T
         assert np.abs(smooth - (mesh.vertices - power @ mesh.vertices)).max() < ROUNDING
+
+
+@pytest.mark.parametrize("kind", ["irregular torus", "border", "mixed sheet", "three pages"])
+@pytest.mark.parametrize(("dtype", "error"), [(np.float64, 1e-11), (np.float32, 1e-5)])
+def test_many_averages_at_once_are_those_one_by_one(kind, dtype, error, rng):
+    """The series in Chebyshev polynomials against powers of the averages."""
+    mesh = noisy(KINDS[kind](), rng)
+    rings = RingAverages(connect(mesh), ALONE)
+    means = rings.outward(rings.mean(rings.inward(np.eye(mesh.n_vertices))))
+    average, one = 0.5 * means + 0.5 * np.eye(mesh.n_vertices), np.eye(mesh.n_vertices)
+    for k in (16, 64):
+        missing = np.linalg.matrix_power(one - np.linalg.matrix_power(average, k), ORDER)
+        expected = mesh.vertices - missing @ mesh.vertices
+        found = smooth_positions(mesh.vertices.T.astype(dtype), rings, k).T
+        assert found.dtype == dtype
+        assert np.abs(found - expected).max() < error
 
 
 def test_affine_positions_are_kept_inside_a_regular_grid():
@@ -127,9 +148,72 @@ def test_parts_of_large_meshes(kind, rng):
     assert (sizes[0] == sizes[1][part.vertices])[part.counts].all()
 
 
-def test_the_best_has_the_lowest_risk_times_squared_roughness():
-    best = choose._best
-    assert best([0.5, 0.2, 0.3], [1.0, 1.0, 1.0]) == 1
-    assert best([0.5, 0.2, 0.3], [1.0, 2.0, 1.1]) == 2
-    assert best([0.3, 0.3], [0.0, 0.0]) == 0
-    assert best([0.5], [1.0]) == 0
+def test_scores_are_risks_times_powers_of_roughness():
+    score = choose.scores
+    risk, plain = np.array([0.5, 0.2, 0.3]), np.ones(3)
+    assert score(risk, plain, plain).argmin() == 1
+    assert score(risk, np.array([1.0, 9.0, 1.1]), plain).argmin() == 2
+    assert score(risk, plain, np.array([1.0, 99.0, 1.1])).argmin() == 2
+    # Risks below zero lift all of them: their differences stay.
+    lifted = score(risk - 0.4, plain, plain)
+    assert np.abs(np.diff(lifted) - np.diff(risk)).max() < 1e-12
+    assert lifted.min() == pytest.approx(choose.UNCERTAINTY)
+    # Where all are perfectly smooth, the risk alone decides.
+    assert np.allclose(score(risk, 0 * plain, 0 * plain), risk + choose.UNCERTAINTY)
+
+
+def test_roughness_against_a_loop(rng):
+    mesh = noisy(triangle_torus(8, 10), rng)
+    problem = problem_of(mesh)
+    counted = rng.random(mesh.n_vertices) < 0.8
+    quarter, bend = choose._Roughness(problem, counted).of(mesh.vertices.T)
+    normals = np.array([newell(mesh.vertices[face]) for face in faces_of(mesh)])
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    apart, bends = [], []
+    for face, near in enumerate(faces_across(mesh)):
+        corners = faces_of(mesh)[face]
+        pairs = [other for corner, other in zip(corners, near, strict=True) if counted[corner]]
+        apart += [np.linalg.norm(normals[face] - normals[other]) for other in pairs]
+        if len(pairs) == len(near):
+            bends.append(np.linalg.norm(normals[face] - normals[near].mean(axis=0)))
+    assert quarter == pytest.approx(np.sort(apart)[len(apart) // 4], rel=1e-9)
+    assert bend == pytest.approx(np.sqrt(np.mean(np.square(bends))), rel=1e-9)
+
+
+def test_roughness_of_nothing():
+    mesh = MESHES["single triangle"]()
+    assert choose._Roughness(problem_of(mesh), np.ones(3, bool)).of(mesh.vertices.T) == (0.0, 0.0)
+
+
+def test_displacements_are_split_into_heights_and_slides(rng):
+    apart, directions = rng.normal(size=(2, 3, 20))
+    directions /= np.linalg.norm(directions, axis=0)
+    counted = rng.random(20) < 0.5
+    height, slide = choose._split(apart, directions, counted)
+    assert np.abs((slide * directions[:, counted]).sum(axis=0)).max() < 1e-12
+    assert np.abs(height * directions[:, counted] + slide - apart[:, counted]).max() < 1e-12
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_smoothing_before_acts_on_the_noise_alike(kind, rng):
+    """What a recipe is told of the noise that is left is what smoothing does to a number at each vertex."""
+    problem = problem_of(noisy(KINDS[kind](), rng))
+    start = problem.start(4)
+    assert_same_bits(start.points, smooth_positions(problem.noisy, problem.rings, 4))
+    heights = np.tile(problem.sample, (3, 1))
+    assert np.abs(start.sample - smooth_positions(heights, problem.rings, 4)[1]).max() < 1e-12
+    assert problem.start(4) is start
+    assert 0 <= problem.units[4] <= 2
+    assert_same_bits(problem.start(0).points, problem.noisy)
+    assert_same_bits(problem.start(0).sample, problem.sample)
+
+
+def test_vertices_that_may_not_move_stay_where_they_were_before_smoothing(rng):
+    mesh = noisy(triangle_torus(8, 10), rng)
+    movable = rng.random(mesh.n_vertices) < 0.5
+    settings = PRESETS["AUTO"].settings
+    constraints = find_constraints(mesh, connect(mesh), settings, movable, np.dtype(float))
+    for recipe in RECIPES:
+        points = problem_of(mesh).run(recipe, constraints)
+        assert_same_bits(points[:, ~movable], mesh.vertices.T[:, ~movable])
+        assert (points != mesh.vertices.T).any()

@@ -2,13 +2,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What automatic denoising survives: hostile meshes, odd sizes, and the ends of its range."""
 
+import tracemalloc
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from framelet.core import PRESETS, SurfaceMesh, blocks, denoise
+from checks import lengths
+from framelet.core import PRESETS, SurfaceMesh, blocks, connect, denoise
 from framelet.core.automatic import filter as engine
-from framelet.core.normals.averages import ITEMS_AT_ONCE
+from framelet.core.automatic.problem import NormalProblem
+from framelet.core.automatic.recipes import RECIPES
+from framelet.core.normals.means import ITEMS_IN_BLOCK
 from mesh_files import mesh_files, read_mesh
 from meshes import MESHES, bow_tie, clean_soup, faces_of, noisy, pyramid, soup, union
 
@@ -65,10 +69,27 @@ def test_many_fans_and_high_valences(build, rng):
     assert_finite(noisy(build(), rng))
 
 
+@pytest.mark.parametrize("recipe", [RECIPES[0], RECIPES[-1]], ids=["normals", "positions"])
+def test_memory_grows_with_the_faces_at_a_vertex_and_not_with_their_square(recipe, rng):
+    """20,000 triangles at one vertex would be 400 million pairs."""
+    mesh = pyramid(20_000, closed=True)
+    points = 3000 * mesh.vertices.T + rng.normal(0, 0.2, mesh.vertices.T.shape)
+    connectivity = connect(mesh)
+    tracemalloc.start()
+    try:
+        problem = NormalProblem(points.astype(np.float32), mesh, connectivity, 0.2, blocks.Blocks(1))
+        found = problem.run(recipe)
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert np.isfinite(found).all() and lengths(found.T - points.T).max() > 0.01
+    assert peak < 2000 * mesh.n_faces
+
+
 def test_many_loose_vertices(rng):
-    """More than two blocks of averages, so that a block has no neighbors at all."""
+    """More than a block of means, so that a block has no neighbors at all."""
     mesh = noisy(MESHES["tetrahedron"](), rng)
-    loose = rng.normal(size=(3 * ITEMS_AT_ONCE, 3))
+    loose = rng.normal(size=(ITEMS_IN_BLOCK + 7, 3))
     assert_finite(SurfaceMesh.from_faces(np.concatenate((mesh.vertices, loose)), faces_of(mesh)))
     shifted = [[v + len(loose) for v in face] for face in faces_of(mesh)]
     assert_finite(SurfaceMesh.from_faces(np.concatenate((loose, mesh.vertices)), shifted))

@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 from checks import assert_same_bits, lengths
 from framelet.core import SurfaceMesh
-from framelet.core.automatic.recipes import unit_noise
+from framelet.core.automatic.problem import unit_noise
 from framelet.core.blocks import Blocks
-from framelet.core.normals.averages import Averages
-from framelet.core.normals.band_shrinkage import average_steps, shrink_bands, unit_rows
+from framelet.core.normals.averages import Averages, Members
+from framelet.core.normals.band_shrinkage import LEFT_OUT, _averaged_often, _power_series, shrink_bands
 from framelet.core.normals.face_averages import FaceAverages
-from framelet.core.normals.neighbors import Ragged, faces_around, faces_of_vertices
+from framelet.core.normals.means import Means
+from framelet.core.normals.neighbors import Ragged, faces_of_vertices, members_around
 from framelet.core.normals.noise_sample import area_vectors, noise_in_normals, scrambled, vertex_means
-from framelet.core.normals.vertex_fit import VertexFit
-from framelet.core.normals.vertex_update import update_vertices
+from framelet.core.normals.pilot import unit_columns
 from framelet.core.surface.geometry import face_area_vectors
 from meshes import MESHES, faces_of, noisy, soup, triangle_torus
 from twins import faces_touching, newell
@@ -43,33 +43,62 @@ def face_averages(mesh, rng, blocks=ALONE, sigma=0.8):
 
 def matrix_of(averages, weights, n):
     """Return averages as a dense matrix, by averaging unit vectors."""
-    return averages.average(weights, np.eye(n))
+    return averages.outward(averages.average(weights, averages.inward(np.eye(n))))
 
 
 @KIND
 @BLOCKS
-def test_averages(kind, blocks, rng, monkeypatch):
+@pytest.mark.parametrize("at_once", [1, 50, 2**14])
+def test_averages(kind, blocks, at_once, rng, monkeypatch):
+    """Whatever lies in a tile, and however tiles are split into chunks."""
     mesh = KINDS[kind]()
-    at_vertex = faces_of_vertices(mesh)
-    monkeypatch.setattr("framelet.core.normals.averages.ITEMS_AT_ONCE", 10)
-    averages = Averages(lambda a, b: faces_around(mesh, at_vertex, a, b), mesh.n_faces, blocks)
+    at_vertex, order = faces_of_vertices(mesh), rng.permutation(mesh.n_faces)
+    monkeypatch.setattr("framelet.core.normals.averages.MEMBERS_AT_ONCE", at_once)
+    monkeypatch.setattr("framelet.core.normals.averages.TILES_IN_BLOCK", 3)
+    averages = Averages(lambda faces: members_around(mesh, at_vertex, faces), order, blocks)
     factor = rng.random(mesh.n_faces)
-    weights = averages.for_groups(lambda group: factor[group.members] + group.rows[:, None])
-    twice = averages.for_groups(lambda group, given: 2 * given, weights)
+    inside, number = averages.inward(factor), averages.inward(np.arange(mesh.n_faces))
+
+    def fill(chunk, weights):
+        factors = inside[chunk.members][:, None] + number[chunk.rows][:, :, None]
+        np.multiply(chunk.mask, factors, out=weights)
+
+    weights = averages.for_chunks(fill)
     field = rng.normal(size=(mesh.n_faces, 4))
     expected = np.zeros_like(field)
     for f, near in enumerate(faces_touching(mesh)):
         for g in near:
             expected[f] += (factor[g] + f) * field[g]
-    assert np.abs(averages.average(weights, field) - expected).max() < 1e-9
-    assert np.abs(averages.average(twice, field) - 2 * expected).max() < 1e-9
+    assert_same_bits(averages.outward(averages.inward(field)), field)
+    found = averages.outward(averages.average(weights, averages.inward(field)))
+    assert np.abs(found - expected).max() < 1e-9
 
 
-def test_averages_of_nothing():
-    averages = Averages(lambda a, b: Ragged(np.zeros(b - a + 1, int), np.zeros(0, int)), 5, ALONE)
-    assert (
-        averages.average(averages.for_groups(lambda group: 1 / 0), np.ones((5, 2))).tolist() == [[0, 0]] * 5
-    )
+@pytest.mark.parametrize("n_items", [0, 1, 5, 8, 19])
+def test_averages_of_nothing(n_items):
+    nothing = np.zeros(0, int)
+    averages = Averages(lambda items: Members(nothing, nothing, nothing), np.arange(n_items), ALONE)
+    weights = averages.for_chunks(lambda chunk, weights: weights.fill(1))
+    found = averages.outward(averages.average(weights, averages.inward(np.ones((n_items, 2)))))
+    assert found.shape == (n_items, 2) and not found.any()
+
+
+@KIND
+@BLOCKS
+@pytest.mark.parametrize("at_once", [1, 50, 2**15])
+@pytest.mark.parametrize("is_square", [True, False])
+def test_means(kind, blocks, at_once, is_square, rng, monkeypatch):
+    monkeypatch.setattr("framelet.core.normals.means.MEMBERS_AT_ONCE", at_once)
+    monkeypatch.setattr("framelet.core.normals.means.ITEMS_IN_BLOCK", 10)
+    mesh = KINDS[kind]()
+    rows = [rng.integers(0, mesh.n_vertices, rng.integers(0, 9)) for _ in range(mesh.n_vertices)]
+    offset = np.concatenate(([0], np.cumsum([len(row) for row in rows])))
+    means = Means(Ragged(offset, np.concatenate(rows).astype(np.int32)), blocks, is_square=is_square)
+    field = rng.normal(size=(mesh.n_vertices, 4))
+    found = means.outward(means.mean(means.inward(field) if is_square else field))
+    expected = [field[row].mean(axis=0) if len(row) else np.zeros(4) for row in rows]
+    assert np.abs(found - expected).max() < ROUNDING
+    assert_same_bits(means.outward(means.inward(field)), field)
 
 
 @KIND
@@ -78,7 +107,7 @@ def test_weights_of_faces(kind, blocks, rng):
     mesh = KINDS[kind]()
     averages, centroids, areas = face_averages(mesh, rng, blocks)
     guide = rng.normal(size=(mesh.n_faces, 3))
-    found = matrix_of(averages, averages.weights(guide, 0.7), mesh.n_faces)
+    found = matrix_of(averages, averages.weights(guide.T, 0.7), mesh.n_faces)
     expected = np.zeros_like(found)
     for f, near in enumerate(faces_touching(mesh)):
         far, turn = lengths(centroids[near] - centroids[f]), lengths(guide[near] - guide[f])
@@ -91,7 +120,7 @@ def test_around_faces_without_area_the_face_itself_stands_in(rng):
     mesh = triangle_torus(5, 6)
     zeros = np.zeros(mesh.n_faces)
     averages = FaceAverages(mesh, faces_of_vertices(mesh), np.zeros((mesh.n_faces, 3)), zeros, 0.0, ALONE)
-    weights = averages.weights(rng.normal(size=(mesh.n_faces, 3)), 0.3)
+    weights = averages.weights(rng.normal(size=(3, mesh.n_faces)), 0.3)
     assert np.array_equal(matrix_of(averages, weights, mesh.n_faces), np.eye(mesh.n_faces))
 
 
@@ -101,7 +130,7 @@ def test_bands_against_powers_of_a_matrix(n_bands, caution, rng):
     mesh = KINDS["mixed sheet"]()
     averages, *_ = face_averages(mesh, rng)
     pilot, noise, field = (rng.normal(size=(mesh.n_faces, 3)) for _ in range(3))
-    weights = averages.weights(pilot, 2.0)
+    weights = averages.weights(pilot.T, 2.0)
     a = matrix_of(averages, weights, mesh.n_faces)
     ticks, expected, power = [], np.zeros_like(field), np.eye(len(a))
     for band in range(n_bands):
@@ -114,14 +143,42 @@ def test_bands_against_powers_of_a_matrix(n_bands, caution, rng):
         power = lower
     expected += power @ field
     given = [x.copy() for x in (field, noise, pilot)]
-    found = shrink_bands(*given, averages, weights, n_bands, caution, lambda: ticks.append(0))
+    found = shrink_bands(
+        *(x.T for x in given), averages, weights, n_bands, caution, lambda: ticks.append(0)
+    ).T
     assert np.abs(found - expected).max() < 1e-10
     assert len(ticks) == n_bands
-    assert n_bands == 0 or average_steps(n_bands) == 2 ** (n_bands - 1)
     if not caution:
         assert np.abs(found - field).max() < ROUNDING
     for x, y in zip(given, (field, noise, pilot), strict=True):
         assert_same_bits(x, y)
+
+
+@pytest.mark.parametrize("exponent", [4, 12, 28, 60])
+def test_many_averages_in_few_steps(exponent, rng):
+    """Against powers of the matrix; on what was averaged before the error is far below what is left out."""
+    mesh = KINDS["mixed sheet"]()
+    averages, *_ = face_averages(mesh, rng)
+    weights = averages.weights(rng.normal(size=(3, mesh.n_faces)), 2.0)
+    a = matrix_of(averages, weights, mesh.n_faces)
+    values = np.linalg.eigvals(a)
+    assert np.abs(values.imag).max() < 1e-9 and np.abs(values).max() < 1 + 1e-9
+    series = _power_series(exponent)
+    assert exponent == 4 or len(series) < 0.8 * exponent
+    assert sum(series) == pytest.approx(1, abs=1e-12) and min(series) >= 0
+    x = np.linspace(-1, 1, 201)
+    assert np.abs(np.polynomial.chebyshev.chebval(x, series) - x**exponent).max() < 2 * LEFT_OUT
+    field = rng.normal(size=(mesh.n_faces, 9))
+    found = averages.outward(_averaged_often(averages.inward(field), exponent, averages, weights))
+    first, second = np.eye(len(a)), a
+    expected = series[0] * field + series[1] * (a @ field)
+    for coefficient in series[2:]:
+        first, second = second, 2 * a @ second - first
+        expected += coefficient * (second @ field)
+    assert np.abs(found - expected).max() < 1e-10
+    even = np.ones((mesh.n_faces, 9))
+    kept = averages.outward(_averaged_often(averages.inward(even), exponent, averages, weights))
+    assert np.abs(kept - 1).max() < 1e-10
 
 
 def test_bands_without_noise_or_without_signal(rng):
@@ -129,18 +186,18 @@ def test_bands_without_noise_or_without_signal(rng):
     mesh = triangle_torus(6, 8)
     averages, *_ = face_averages(mesh, rng)
     noise, field = (rng.normal(size=(mesh.n_faces, 3)) for _ in range(2))
-    weights = averages.weights(noise, 2.0)
+    weights = averages.weights(noise.T, 2.0)
     for pilot in (noise, np.zeros_like(noise)):
-        found = shrink_bands(field, np.zeros_like(noise), pilot, averages, weights, 4, 2.0)
+        found = shrink_bands(field.T, 0 * noise.T, pilot.T, averages, weights, 4, 2.0).T
         assert np.abs(found - field).max() < ROUNDING
-    found = shrink_bands(field, noise, np.zeros_like(noise), averages, weights, 3, 1.0)
+    found = shrink_bands(field.T, noise.T, 0 * noise.T, averages, weights, 3, 1.0).T
     low = np.linalg.matrix_power(matrix_of(averages, weights, mesh.n_faces), 4) @ field
     assert np.abs(found - low).max() < ROUNDING
 
 
-def test_unit_rows():
-    rows = unit_rows(np.array([[3.0, 0, 4], [0, 0, 0], [0, 1e-200, 0]]), np.array([[1.0, 0, 0]] * 3))
-    assert rows.tolist() == [[0.6, 0, 0.8], [1, 0, 0], [1, 0, 0]]
+def test_unit_columns():
+    vectors, fallback = np.array([[3.0, 0, 4], [0, 0, 0], [0, 1e-200, 0]]).T, np.array([[1.0, 0, 0]] * 3).T
+    assert unit_columns(vectors, fallback).T.tolist() == [[0.6, 0, 0.8], [1, 0, 0], [1, 0, 0]]
 
 
 @pytest.mark.parametrize("kind", [*KINDS, "single quad", "tetrahedron"])
@@ -191,17 +248,3 @@ def test_noise_in_normals_is_linear_for_small_noise(rng):
     one, two = (noise_in_normals(mesh.vertices.T, k * amount, mesh, at_vertex, ALONE) for k in (1, 2))
     assert np.abs(two - 2 * one).max() < 1e-9 < np.abs(one).max()
     assert not noise_in_normals(mesh.vertices.T, 0 * amount, mesh, at_vertex, ALONE).any()
-
-
-@KIND
-@BLOCKS
-def test_steps_of_fitting_are_vertex_updates(kind, blocks, rng):
-    mesh = noisy(KINDS[kind](), rng)
-    at_vertex, points = faces_of_vertices(mesh), mesh.vertices.T
-    normals = unit_rows(rng.normal(size=(mesh.n_faces, 3)), np.zeros((mesh.n_faces, 3))).T
-    steps, displacement = VertexFit(mesh, at_vertex, blocks).steps(points, normals), np.zeros_like(points)
-    expected = points
-    for _ in range(5):
-        displacement = steps.advance(displacement)
-        expected = update_vertices(expected, normals, mesh, at_vertex, ALONE)
-    assert np.abs(points + displacement - expected).max() < 1e-10

@@ -7,11 +7,12 @@ import pytest
 from checks import AS_SOLVED, lengths
 from framelet.core import DenoiseSettings, SurfaceMesh, connect, denoise
 from framelet.core.blocks import Blocks
-from framelet.core.normals import pilot
-from framelet.core.normals.averaging import GuidedAverage
-from framelet.core.normals.neighbors import edge_neighbors, faces_around, faces_of_vertices
-from framelet.core.normals.vertex_update import face_centroids, update_vertices
-from framelet.core.transform.adaptive_level import AdaptiveLevel
+from framelet.core.normals import face_pairs, neighbors, pilot
+from framelet.core.normals.averages import TILE, united
+from framelet.core.normals.centroids import face_centroids
+from framelet.core.normals.face_averages import FaceAverages
+from framelet.core.normals.neighbors import edge_neighbors, faces_of_vertices, members_around
+from framelet.core.normals.vertex_fit import VertexFit
 from meshes import MESHES, faces_of, flipped, noisy, soup, triangle_grid, triangle_torus, union
 from twins import faces_across, faces_touching, newell
 
@@ -119,8 +120,8 @@ def field(n_faces, rng, with_zeros=True):
 def test_faces_around_faces_and_vertices(kind):
     soups = [soup(seed, shortest=1 + seed % 3) for seed in range(12)]
     for mesh in soups if kind == "soups" else [KINDS[kind]()]:
-        neighbors, at_vertex = edge_neighbors(mesh, connect(mesh)), faces_of_vertices(mesh)
-        rows = np.split(neighbors.neighbor, neighbors.offset[1:-1])
+        across, at_vertex = edge_neighbors(mesh, connect(mesh)), faces_of_vertices(mesh)
+        rows = np.split(across.neighbor, across.offset[1:-1])
         assert [row.tolist() for row in rows] == faces_across(mesh)
         rows = np.split(at_vertex.items, at_vertex.offset[1:-1])
         expected = [
@@ -128,31 +129,73 @@ def test_faces_around_faces_and_vertices(kind):
         ]
         assert len(rows) == mesh.n_vertices
         assert [row.tolist() for row in rows] == expected
-        for start, stop in ((0, mesh.n_faces), (mesh.n_faces // 3, mesh.n_faces // 2 + 1)):
-            around = faces_around(mesh, at_vertex, start, stop)
-            rows = np.split(around.items, around.offset[1:-1])
-            assert [row.tolist() for row in rows] == faces_touching(mesh)[start:stop]
+        assert touching(mesh) == [set(row) for row in faces_touching(mesh)]
+
+
+def touching(mesh):
+    """Return the set of faces around each face, by way of tiles in a scrambled order."""
+    n_tiles = -(-mesh.n_faces // TILE)
+    faces = np.resize(np.random.default_rng(0).permutation(mesh.n_faces), (n_tiles, TILE))
+    tiles = united(members_around(mesh, faces_of_vertices(mesh), faces), n_tiles, mesh.n_faces)
+    found = [set() for _ in range(mesh.n_faces)]
+    for tile, own in enumerate(faces):
+        part = slice(tiles.offset[tile], tiles.offset[tile + 1])
+        assert (np.diff(tiles.member[part]) > 0).all() and tiles.bits[part].all()
+        for bit, face in enumerate(own):
+            found[face] = {
+                int(g)
+                for g, bits in zip(tiles.member[part], tiles.bits[part], strict=True)
+                if bits >> bit & 1
+            }
+    return found
+
+
+@pytest.mark.parametrize("most", [0, 3, 5])
+def test_vertices_with_very_many_faces_do_not_join_them(most, monkeypatch):
+    monkeypatch.setattr(neighbors, "MOST_FACES", most)
+    mesh = flipped(triangle_torus(5, 6))
+    corners = faces_of(mesh)
+    counts = np.bincount(np.concatenate(corners))
+    expected = [
+        {g for g, other in enumerate(corners) if g == f or any(counts[v] <= most for v in {*face} & {*other})}
+        for f, face in enumerate(corners)
+    ]
+    assert touching(mesh) == expected
+    assert max(map(len, expected)) > 1 or most < 5
 
 
 @KIND
-def test_the_face_frame_is_tight(kind, rng):
+@pytest.mark.parametrize("at_once", [1, 2**14], ids=["small chunks", "large chunks"])
+def test_the_face_frame_is_tight(kind, at_once, rng, monkeypatch):
     """In the measure that equal weights pull back: constant if all faces are of one kind."""
+    monkeypatch.setattr(face_pairs, "TAPS_AT_ONCE", 6 * at_once)
     mesh = KINDS[kind]()
-    neighbors, table = edge_neighbors(mesh, connect(mesh)), faces_across(mesh)
-    level = AdaptiveLevel(neighbors, pilot._EqualBank, np.ones(mesh.n_faces), np.float64, ALONE)
-    assert np.abs(level.measure - measure_of(table)).max() < ROUNDING
+    pairs, table = face_pairs.FacePairs(edge_neighbors(mesh, connect(mesh)), ALONE), faces_across(mesh)
+    low, high, slots = frame_of(table)
+    assert np.abs(pairs.measure - measure_of(table)).max() < ROUNDING
     if len(set(mesh.face_sizes().tolist())) == 1:
-        assert np.abs(level.measure - 1).max() < ROUNDING
-    assert kind not in ("mixed", "polygons") or np.ptp(level.measure) > 0.01
-    normals = rng.normal(size=(3, mesh.n_faces))
-    chunks = {}
-    low, pending = level.forward(normals, lambda index, high: chunks.update({index: high.copy()}))
-    chunks = [chunks[index] for index in range(len(level.sites))]
-    energy = (low**2).sum() + sum((high**2).sum() for high in chunks)
-    assert energy == pytest.approx((level.measure * normals**2).sum(), rel=ROUNDING)
-    assert np.abs(low.T - frame_of(table)[0] @ normals.T).max() < ROUNDING
-    assert np.abs(level.adjoint(low, chunks) - normals).max() < ROUNDING
-    assert np.abs(level.backward(low, pending) - normals).max() < ROUNDING
+        assert np.abs(pairs.measure - 1).max() < ROUNDING
+    assert kind not in ("mixed", "polygons") or np.ptp(pairs.measure) > 0.01
+    assert np.abs(low.T @ low + high.T @ high - np.diag(pairs.measure)).max() < ROUNDING
+    normals, factor = rng.normal(size=(mesh.n_faces, 3)), rng.normal(size=(len(high), 3))
+    # Rows of the table come face by face, chunks by the number of taps.
+    at = np.repeat(np.arange(mesh.n_faces), [len(near) * (len(near) + 1) // 2 for near in table])
+
+    def change(index, apart):
+        chunk = pairs.chunks[index]
+        rows = np.array([np.flatnonzero(at == face) for face in chunk.taps[0]], int).reshape(
+            len(chunk.taps[0]), -1
+        )
+        expected = (high @ normals * slots[:, None])[rows]
+        assert np.abs(apart - expected.transpose(2, 1, 0)).max(initial=0) < ROUNDING
+        apart *= factor[rows].transpose(2, 1, 0)
+
+    found = np.full((3, mesh.n_faces), np.nan)
+    pairs.returned(normals.T, change).for_faces(
+        lambda faces, values: found.__setitem__((slice(None), faces), values)
+    )
+    expected = high.T @ (factor * (high @ normals)) / measure_of(table)[:, None]
+    assert np.abs(found.T - expected).max() < ROUNDING
 
 
 @KIND
@@ -191,10 +234,11 @@ def test_guided_averages(kind, rng):
     normals, guide = field(mesh.n_faces, rng), field(mesh.n_faces, rng)
     centroids, areas = rng.normal(size=(mesh.n_faces, 3)), rng.exponential(size=mesh.n_faces)
     with Blocks(2, block_size=7) as blocks:
-        average = GuidedAverage(mesh, faces_of_vertices(mesh), centroids.T, areas, 0.8, blocks)
+        averages = FaceAverages(mesh, faces_of_vertices(mesh), centroids, areas, 0.8, blocks)
         for own, sigma_n, steps in ((guide, 0.3, 1), (guide, 2.0, 3), (normals, 0.5, 2), (guide, 0.3, 0)):
             ticks = []
-            found = average.smooth(normals.T, own.T, sigma_n, steps, lambda ticks=ticks: ticks.append(0)).T
+            weights = averages.weights(own.T, sigma_n)
+            found = averages.smooth(normals.T, weights, steps, lambda ticks=ticks: ticks.append(0)).T
             expected = slow_average(mesh, normals, own, centroids, areas, 0.8, sigma_n, steps)
             assert np.abs(found - expected).max() < ROUNDING
             assert len(ticks) == steps
@@ -202,20 +246,24 @@ def test_guided_averages(kind, rng):
 
 
 @KIND
-def test_vertex_updates(kind, rng):
+@pytest.mark.parametrize("blocks", [ALONE, Blocks(1, 5)], ids=["one block", "blocks"])
+def test_vertex_steps(kind, blocks, rng):
     mesh = KINDS[kind]()
-    points, normals = rng.normal(size=(mesh.n_vertices, 3)), field(mesh.n_faces, rng)
-    for blocks in (ALONE, Blocks(1, 5)):
-        found = update_vertices(points.T, normals.T, mesh, faces_of_vertices(mesh), blocks).T
-        assert np.abs(found - slow_update(mesh, points, normals)).max() < ROUNDING
-    assert lengths(found - points).max() > 0.01
+    expected, normals = rng.normal(size=(mesh.n_vertices, 3)), field(mesh.n_faces, rng)
+    fit = VertexFit(mesh, faces_of_vertices(mesh), blocks).steps(expected.T, normals.T)
+    for found, motion in fit.points(4):
+        before, expected = expected, slow_update(mesh, expected, normals)
+        assert np.abs(found.T - expected).max() < ROUNDING
+        assert motion == pytest.approx(np.sqrt(((expected - before) ** 2).sum(axis=1).mean()), rel=1e-9)
+    assert mesh.n_faces == 1 or motion > 1e-4
 
 
 @pytest.mark.parametrize("size", [3, 4, 7])
 def test_one_step_turns_a_single_face_about_its_centroid(size, rng):
     mesh = SurfaceMesh.from_faces(rng.normal(size=(size, 3)), [range(size)])
     normal = unit(rng.normal(size=(1, 3)), 0)
-    found = update_vertices(mesh.vertices.T, normal.T, mesh, faces_of_vertices(mesh), ALONE)
+    fit = VertexFit(mesh, faces_of_vertices(mesh), ALONE).steps(mesh.vertices.T, normal.T)
+    found = next(points for points, _ in fit.points(1))
     center = mesh.vertices.mean(axis=0)
     assert np.abs(face_centroids(found, mesh)[:, 0] - center).max() < ROUNDING
     assert np.abs(normal @ (found - center[:, None])).max() < ROUNDING

@@ -30,7 +30,7 @@ def use_entry(session, before):
 
 
 def test_own_menu(ball):
-    noisy, before = ball.run(NOISY), ball.picture()
+    noisy, before = ball.run(NOISY), ball.still_picture()
     ball.run(CALL, name="VIEW3D_MT_framelet")
     use_entry(ball, before)
     ball.wait_for(f"digest('Ball') != {noisy!r}")
@@ -40,7 +40,7 @@ def test_menu_of_edit_mode(ball):
     noisy = ball.run(NOISY)
     ball.run(EDIT)
     ball.settle()
-    before = ball.picture()
+    before = ball.still_picture()
     ball.run(CALL, name="VIEW3D_MT_edit_mesh_clean")
     use_entry(ball, before)
     ball.wait_for("bpy.context.window_manager.framelet_report.n_moved == 2562")
@@ -49,7 +49,7 @@ def test_menu_of_edit_mode(ball):
 
 
 def test_right_click(ball):
-    noisy, before = ball.run(NOISY), ball.picture()
+    noisy, before = ball.run(NOISY), ball.still_picture()
     ball.click(ball.middle(), "RIGHTMOUSE")
     use_entry(ball, before)
     ball.wait_for(f"digest('Ball') != {noisy!r}")

@@ -59,7 +59,8 @@ def test_heat_map_goes_away(denoised):
     press(denoised, "object.framelet_hide_colors", seconds=1.0, across=0.25)
     denoised.move((5, 5))
     denoised.settle(0.5)
-    assert denoised.until(lambda: changed(plain, denoised.part()) < 0.02)
+    # The panel of the last operation has gone too, so that pixels are not compared one by one.
+    assert denoised.until(lambda: saturated(denoised.part()) < saturated(plain) + 0.01)
 
 
 def test_before_and_after_in_turn(denoised):

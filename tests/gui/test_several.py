@@ -54,7 +54,7 @@ def test_edit_mode_of_two_meshes(desk):
 def test_presets_of_ones_own(ball):
     assert ball.run(SAVED) == []
     x, y, width, height = ball.box("UI")
-    before = ball.picture()
+    before = ball.still_picture()
     # The button in the panel's header, left of the grip.
     ball.click((x + int(0.767 * width), y + height - int(16 * ball.scale)), seconds=0.7)
     opened = ball.picture()

@@ -8,7 +8,7 @@ import sys
 import loading  # noqa: F401
 import numpy as np
 from shapes import read_mesh
-from stopwatch import Stopwatch, peak_bytes
+from stopwatch import Stopwatch, begin_peak, peak_bytes
 
 
 def plain(mesh, watch):
@@ -80,7 +80,7 @@ def main():
     """Measure and print; a package that is missing gives an empty result."""
     name, path = sys.argv[1:3]
     mesh = read_mesh(path)
-    before = peak_bytes()
+    before = begin_peak()
     watch = Stopwatch()
     try:
         BASELINES[name](mesh, watch)

@@ -14,7 +14,7 @@ from framelet.operators import denoise_object as operator_module
 from framelet.operators import mesh_bridge
 from framelet.operators.preparations import preparations
 from shapes import read_mesh
-from stopwatch import Stopwatch, peak_bytes
+from stopwatch import Stopwatch, begin_peak, peak_bytes
 
 
 def torus_object(path):
@@ -65,7 +65,7 @@ def main():
     obj = monkey_object(int(levels)) if name == "monkey" else torus_object(source)
     warm_up(settings)
     noisy = mesh_bridge.read_surface(obj)
-    before = peak_bytes()
+    before = begin_peak()
     watch = Stopwatch()
     watch.wrap(mesh_bridge, "read_surface_and_movable", "read")
     watch.wrap(mesh_bridge, "write_vertices", "write")

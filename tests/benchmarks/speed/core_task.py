@@ -12,7 +12,7 @@ from framelet.core.denoising import denoise as denoise_module
 from framelet.core.denoising import prepared as prepared_module
 from framelet.core.memory import estimated_bytes
 from shapes import read_mesh
-from stopwatch import Stopwatch, peak_bytes, triad_seconds
+from stopwatch import Stopwatch, begin_peak, peak_bytes, triad_seconds
 
 BYTES_PER_ITERATION = 200
 """What an iteration of Tri-2 has to move for each vertex: indices, neighbors, residuals and positions."""
@@ -54,7 +54,7 @@ def main():
     settings = settings_of(options)
     warm_up(settings)
     mesh = read_mesh(path)
-    before = peak_bytes()
+    before = begin_peak()
     watch = Stopwatch()
     for module, name, stage in STAGES:
         watch.wrap(module, name, stage)

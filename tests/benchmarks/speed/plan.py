@@ -40,7 +40,7 @@ def make_plan(sizes, *, with_blender=True, with_others=True):
         adaptive = {"frame": "ADAPTIVE", "stencil": "ADAPTIVE", "levels": 3}
         runs.append(_core("Adaptive, 3 levels", size, "TRI_2", **adaptive))
         for preset, label in (("AUTO", "Automatic"), ("FREE_FORM", "Free-Form"), ("PRISMATIC", "Prismatic")):
-            runs.append(_core(label, size, preset, rerun=True))
+            runs.append(_core(label, size, preset, rerun=preset != "AUTO"))
         if with_blender:
             for preset, label in (("TRI_2", "Tri-2"), ("AUTO", "Automatic")):
                 runs.append(Run("blender", f"{label} in Blender", size, options={"preset": preset}))

@@ -55,6 +55,9 @@ def parse():
     parser = argparse.ArgumentParser(description="Measure seconds and peak memory.")
     parser.add_argument("--sizes", type=int, nargs="+", help=f"numbers of vertices (default: {SIZES})")
     parser.add_argument("--only", default="", metavar="TEXT", help="runs with this in their names")
+    parser.add_argument(
+        "--skip", nargs="+", default=[], metavar="TEXT", help="no runs with one of these in their names"
+    )
     parser.add_argument("--quick", action="store_true", help="small meshes, core only")
     parser.add_argument("--no-blender", action="store_true", help="leave out the runs inside Blender")
     parser.add_argument("--no-others", action="store_true", help=f"leave out {', '.join(OTHERS.values())}")
@@ -75,6 +78,7 @@ def measure(arguments):
     with_blender = not (arguments.quick or arguments.no_blender)
     plan = make_plan(sizes, with_blender=with_blender, with_others=not arguments.no_others)
     plan = [run for run in plan if arguments.only in run.what]
+    plan = [run for run in plan if not any(text in run.what for text in arguments.skip)]
     blender = python_of(arguments.blender) if any(run.kind == "blender" for run in plan) else ""
     rows = []
     for number, run in enumerate(plan, 1):

@@ -1,0 +1,248 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A noisy mesh on which recipes are run."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import cached_property, partial
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..blocks import Blocks
+from ..denoising.constraints import Constraints
+from ..memory import MANY_ITEMS, give_back
+from ..normals.band_shrinkage import shrink_inside
+from ..normals.centroids import face_centroids
+from ..normals.face_averages import FaceAverages, face_averages
+from ..normals.folds import unfold
+from ..normals.neighbors import edge_neighbors, faces_of_vertices
+from ..normals.noise_sample import area_vectors, noise_in_normals, normals_of, scrambled, vertex_means
+from ..normals.pilot import median_difference, pilot_normals, unit_columns
+from ..normals.vertex_fit import VertexFit
+from ..surface.connectivity import Connectivity
+from ..surface.surface_mesh import SurfaceMesh
+from ..transform.adaptive_level import Neighbors
+from .recipes import Recipe
+from .smooth_positions import RingAverages, smooth_positions
+
+PILOT_VERTEX_STEPS = 8
+"""Vertex steps that make a surface from a pilot, to sample the noise on."""
+
+TINY_STEP = 0.02
+"""Share of the noise by which vertices move to see what the noise does to normals of the noisy mesh."""
+
+SLIGHTLY = 4
+"""Averages that smooth the positions from which distances and areas are taken."""
+
+Tick = Callable[[float], None]
+"""Called with the rms motion of the vertices, or 0."""
+
+
+class _Start(NamedTuple):
+    """What a recipe begins with: smoothed positions, their normals, the noise that is left, pilots."""
+
+    points: NDArray[np.floating]  # (3, N)
+    normals: NDArray[np.floating]  # (3, F)
+    sample: NDArray[np.floating]  # (N,), for noise of standard deviation 1 before smoothing
+    pilots: dict[float, NDArray[np.floating]]
+
+
+class NormalProblem:
+    """A noisy mesh and what all recipes need of it.
+
+    Parameters
+    ----------
+    noisy : ndarray, shape (3, N)
+        Noisy positions in mean edge lengths; not modified.
+    surface : SurfaceMesh
+        The mesh, for its faces.
+    connectivity : Connectivity
+        Its neighborhoods.
+    sigma : float
+        Standard deviation of the noise along the normals, in mean edge lengths, above 0.
+    blocks : Blocks
+        Threads to work on.
+    sample : ndarray, shape (N,), optional
+        Numbers of mean 0 and variance 1 that stand for noise; by default made from the positions.
+    """
+
+    def __init__(
+        self,
+        noisy: NDArray[np.floating],
+        surface: SurfaceMesh,
+        connectivity: Connectivity,
+        sigma: float,
+        blocks: Blocks,
+        sample: NDArray[np.floating] | None = None,
+    ) -> None:
+        self.noisy, self.surface, self.blocks, self.sigma = noisy, surface, blocks, sigma
+        self._connectivity = connectivity
+        self.at_vertex = faces_of_vertices(surface)
+        if sample is None:
+            sample = unit_noise(scrambled(noisy, surface, self.at_vertex, sigma, 64.0, blocks))
+        self.sample = sample
+        self.units: dict[int, float] = {}
+        """Median differences that the noise makes between neighboring normals, by the averages before."""
+        self._starts: dict[int, _Start] = {}
+
+    @property
+    def neighbors(self) -> Neighbors:
+        """The faces across edges; made quickly, and large."""
+        return edge_neighbors(self.surface, self._connectivity)
+
+    @cached_property
+    def fit(self) -> VertexFit:
+        """Steps of the vertices."""
+        return VertexFit(self.surface, self.at_vertex, self.blocks)
+
+    @cached_property
+    def averages(self) -> FaceAverages:
+        """Averages over the faces around a face.
+
+        Distances and areas are those of slightly smoothed positions, since noise makes areas too large.
+        """
+        points = smooth_positions(self.noisy, self.rings, SLIGHTLY)
+        areas = np.sqrt((area_vectors(points, self.surface, self.blocks) ** 2).sum(axis=0))
+        return face_averages(points, self.surface, self.at_vertex, self.neighbors, areas, self.blocks)
+
+    @cached_property
+    def rings(self) -> RingAverages:
+        """Means over the neighbors of each vertex."""
+        return RingAverages(self._connectivity, self.blocks)
+
+    def start(self, n_averages: int) -> _Start:
+        """Return what recipes begin with that smooth positions by so many averages; kept for others."""
+        if n_averages not in self._starts:
+            self._starts[n_averages] = self._make_start(n_averages)
+        return self._starts[n_averages]
+
+    def _make_start(self, n_averages: int) -> _Start:
+        points, sample = self.noisy, self.sample
+        if n_averages:
+            points = smooth_positions(points, self.rings, n_averages)
+            heights = np.zeros_like(points)
+            heights[0] = sample
+            sample = smooth_positions(heights, self.rings, n_averages)[0]
+        normals = normals_of(points, self.surface, self.blocks)
+        if n_averages not in self.units:
+            neighbors = self.neighbors
+            little = self._noise_in_normals(points, TINY_STEP * sample)
+            # What a little noise does, scaled up, is too much for strong noise: no angle exceeds a half turn.
+            self.units[n_averages] = min(
+                median_difference(little, neighbors, self.blocks) / TINY_STEP,
+                median_difference(normals, neighbors, self.blocks),
+            )
+        return _Start(points, normals, sample, {})
+
+    def clean_normals(self, recipe: Recipe, tick: Tick = lambda _: None) -> NDArray[np.floating]:
+        """Return unit normals, shape (3, F)."""
+        start = self.start(recipe.n_averages)
+        if recipe.threshold not in start.pilots:
+            start.pilots[recipe.threshold] = pilot_normals(
+                start.normals,
+                self.neighbors,
+                recipe.threshold,
+                0.0,
+                self.blocks,
+                lambda: tick(0.0),
+                unit=self.units[recipe.n_averages],
+            )
+            give_back(self.surface.n_faces)
+        normals = start.pilots[recipe.threshold]
+        for range_sigma in recipe.range_sigmas:
+            cleaned = shrink_inside(
+                partial(self._fields_around, start, normals),
+                self.averages,
+                self.averages.weights(normals, range_sigma),
+                recipe.n_bands,
+                recipe.caution,
+                lambda: tick(0.0),
+            )
+            normals = unit_columns(cleaned, start.normals)
+        return normals
+
+    def _fields_around(self, start: _Start, normals: NDArray[np.floating]) -> NDArray[np.floating]:
+        """Return noisy normals, a sample of the noise in them on a surface with given normals, and these."""
+        points = self.fitted(start.points, normals, PILOT_VERTEX_STEPS)
+        noise = self._noise_in_normals(points, start.sample)
+        fields = self.averages.inward_rows([*start.normals, *noise, *normals])
+        if self.surface.n_faces >= MANY_ITEMS:
+            del self.fit  # made again quickly, and large when memory is needed most
+        give_back(self.surface.n_faces)
+        return fields
+
+    def _noise_in_normals(
+        self, points: NDArray[np.floating], sample: NDArray[np.floating]
+    ) -> NDArray[np.floating]:
+        """Return how normals, shape (3, F), change when the noise that a sample stands for is added."""
+        return noise_in_normals(points, self.sigma * sample, self.surface, self.at_vertex, self.blocks)
+
+    def fitted(
+        self,
+        start: NDArray[np.floating],
+        normals: NDArray[np.floating],
+        n_steps: int,
+        constraints: Constraints | None = None,
+        tick: Tick | None = None,
+    ) -> NDArray[np.floating]:
+        """Return positions, shape (3, N), whose faces have the wanted normals as far as possible."""
+        found = start
+        for points, change in self.fit.steps(start, normals).points(n_steps, constraints, self.noisy):
+            found = points
+            if tick is not None:
+                tick(change)
+        return found
+
+    def run(
+        self,
+        recipe: Recipe,
+        constraints: Constraints | None = None,
+        tick: Tick = lambda _: None,
+        *,
+        is_unfolded: bool = True,
+    ) -> NDArray[np.floating]:
+        """Return denoised positions, shape (3, N), if asked for without folds as far as possible."""
+        if recipe.range_sigmas:
+            normals = self.clean_normals(recipe, tick)
+            start = self.start(recipe.n_averages).points
+            points = self.fitted(start, normals, recipe.vertex_steps, constraints, tick)
+        else:
+            points = self.start(recipe.n_averages).points
+            tick(0.0)
+            normals = self._normals_around(points)
+        if not is_unfolded:
+            return points
+        points = unfold(points, normals, self.surface, self._ring_mean)
+        if constraints is not None:
+            constraints.apply(points, self.noisy)
+        return points
+
+    def run_all(
+        self, recipes: Sequence[Recipe], constraints: Constraints, tick: Tick = lambda _: None
+    ) -> NDArray[np.floating]:
+        """Return the mean, shape (3, N), of what recipes give."""
+        points = self.run(recipes[0], constraints, tick)
+        if len(recipes) > 1:
+            points = sum((self.run(recipe, constraints, tick) for recipe in recipes[1:]), points)
+            points = points / points.dtype.type(len(recipes))
+            points = unfold(points, self._normals_around(points), self.surface, self._ring_mean)
+            constraints.apply(points, self.noisy)
+        return points
+
+    def _normals_around(self, points: NDArray[np.floating]) -> NDArray[np.floating]:
+        """Return, for each face, the mean normal of the faces around its corners, shape (3, F)."""
+        at_corners = vertex_means(area_vectors(points, self.surface), self.at_vertex)
+        around = face_centroids(at_corners, self.surface)
+        return unit_columns(around, np.zeros_like(around))
+
+    def _ring_mean(self, points: NDArray[np.floating]) -> NDArray[np.floating]:
+        """Return the means over the neighbors of each vertex, shape (3, N)."""
+        return self.rings.mean_of(points)
+
+
+def unit_noise(number: NDArray[np.floating]) -> NDArray[np.floating]:
+    """Return numbers of mean 0 and variance 1 from numbers spread evenly from 0 to 1."""
+    return (number - number.dtype.type(0.5)) * number.dtype.type(12.0**0.5)

@@ -1,0 +1,81 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Noise and models of the quality benchmark, and what is measured on them."""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from framelet.core import add_noise, compare, connect
+from framelet.core.surface.geometry import mean_edge_length, signed_volume, vertex_normals
+from meshes import faces_of
+from twins import newell
+
+FOLDER = Path(__file__).resolve().parent
+sys.path.insert(0, str(FOLDER))
+
+from cases import CaseName, load_case  # noqa: E402
+from noise import NOISES  # noqa: E402
+from shapes import MADE, QUICK, gear, rounded_cube  # noqa: E402
+
+
+@pytest.mark.parametrize("noise", NOISES)
+def test_noise_has_its_size_and_its_seed(noise):
+    clean = rounded_cube(16)
+    moved = NOISES[noise](clean, 3)
+    assert np.array_equal(moved, NOISES[noise](clean, 3))
+    assert not np.array_equal(moved, NOISES[noise](clean, 4))
+    offset = (moved - clean.vertices) / mean_edge_length(clean)
+    size = np.linalg.norm(offset, axis=1)
+    sigma = float(noise.split()[1])
+    is_moved = size > 0
+    assert abs(np.sqrt((size[is_moved] ** 2).mean()) / sigma - 1) < 0.08
+    along = np.abs((offset * vertex_normals(clean)).sum(axis=1)[is_moved]) / size[is_moved]
+    if noise.startswith("direction"):
+        assert abs(along.mean() - 0.5) < 0.05  # of directions uniform on the sphere
+    else:
+        assert along.min() > 1 - 1e-6
+    share = 0.5 if noise.startswith("impulsive") else 1.0
+    assert abs(is_moved.sum() - share * len(size)) <= 1
+
+
+def test_noise_along_normals_is_that_of_the_core():
+    clean = rounded_cube(6)
+    assert np.array_equal(NOISES["normal 0.3"](clean, 5), add_noise(clean, 0.3, 5))
+
+
+@pytest.mark.parametrize("name", [*MADE, *QUICK])
+def test_models_made_in_code_are_closed(name):
+    mesh = {**MADE, **QUICK}[name]()
+    assert connect(mesh).is_closed
+    if "torus" not in name:  # those of the tests are turned inside out, which does not matter here
+        assert signed_volume(mesh) > 0
+    assert mesh.n_faces < 25_000
+
+
+def largest_bend(mesh):
+    """The largest angle between faces that share an edge, in degrees."""
+    normals = np.array([newell(mesh.vertices[face]) for face in faces_of(mesh)])
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    at_edge = {}
+    for face, corners in enumerate(faces_of(mesh)):
+        for edge in zip(corners, [*corners[1:], corners[0]], strict=True):
+            at_edge.setdefault(frozenset(map(int, edge)), []).append(face)
+    cosines = [normals[pair[0]] @ normals[pair[1]] for pair in at_edge.values() if len(pair) == 2]
+    return np.degrees(np.arccos(np.clip(min(cosines), -1, 1)))
+
+
+def test_gear_has_sharp_edges_and_rounded_cube_has_fillets():
+    bends = [largest_bend(mesh) for mesh in (gear(), rounded_cube(12))]
+    assert bends[0] > 80
+    assert bends[1] < 50
+
+
+def test_measure_is_that_of_the_core():
+    case = load_case(CaseName("made/small_cube_tri", "normal 0.2", 1))
+    expected = compare(case.noisy, case.model.clean)
+    found = case.measure(case.noisy.vertices)
+    assert (found.angle, found.flips) == (expected.mean_angle, expected.flipped_faces)
+    assert abs(found.rms - expected.rms_distance / expected.mean_edge_length) < 1e-12
+    assert np.abs(case.positions(case.rows) - case.noisy.vertices).max() < 1e-5
