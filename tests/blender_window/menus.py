@@ -28,7 +28,7 @@ def as_number(text):
         return None
 
 def sweep_copies(left, heights, wanted):
-    seen, last = [], None
+    seen, places = [], []
     for height in heights:
         bpy.context.window_manager.clipboard = ""
         simulate("MOUSEMOVE", "NOTHING", (left, height))
@@ -42,14 +42,14 @@ def sweep_copies(left, heights, wanted):
         found = copied.partition("(")[0].removeprefix("bpy.ops.") if copied.startswith("bpy.ops.") else copied
         number = as_number(found)
         if found == wanted or (number is not None and wanted == round(number, 4)):
-            # The first entry is active before the mouse is over it: the last place is surely within.
-            last = height
+            places.append(height)
             continue
-        if last is not None:
+        if places:
             break
         if found and found not in seen:
             seen.append(found)
-    return last, seen
+    # The first entry is active before the mouse is over it, the last one still when the mouse is below it.
+    return (places[-2:] or [None])[0], seen
 
 result = sweep_copies(left, heights, wanted)
 """
