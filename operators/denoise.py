@@ -18,6 +18,7 @@ from .region_values import shown_region_names, to_region_options
 from .run_display import RunDisplay
 from .setting_values import PROPERTY_NAMES, fill, has_effect, is_replaced, to_settings
 from .settings import OutputMixin, SettingsMixin
+from .unused_values import unused_sentences
 
 TICK = 0.05
 """Seconds between two looks at a run."""
@@ -107,6 +108,10 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, RegionMixin, bpy.ty
     def _begin(self, context: bpy.types.Context) -> bool:
         """Read the targets; report why not if there is nothing to do."""
         settings = to_settings(self)
+        if bpy.app.background or not (self.options.is_invoke or self.options.is_repeat):
+            # Only a script names what has no effect; the sidebar does not show it.
+            for sentence in unused_sentences(self, settings):
+                self.report({"WARNING"}, sentence)
         # The panel for adjusting the last operation shows the values that were used, defaults included.
         fill(self, settings)
         end_preview()

@@ -24,8 +24,9 @@ raises `RuntimeError` with one sentence that says why nothing was done. [The coo
 at work.
 
 Operators take what they need from their arguments and nothing from the sidebar. Arguments of
-`object.framelet_denoise` that are not given are those of the preset. Lengths in *edge lengths* are in units
-of the mean edge length of the mesh.
+`object.framelet_denoise` that are not given are those of the preset. The default preset, `AUTO`, uses few of
+them; a value that the engine does not use is named in a warning, and the run goes on without it. Lengths in
+*edge lengths* are in units of the mean edge length of the mesh.
 """
 
 

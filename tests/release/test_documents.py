@@ -16,6 +16,7 @@ HEADING = re.compile(r"^#+ +(.*)$", re.MULTILINE)
 ROW = re.compile(r"^\| ([^|]+) \|", re.MULTILINE)
 VARIABLE = re.compile(
     r"‘[^’]*’|; |: |\.\.\.|\([^)]*\)|[\d.,]+ (?:GB|MB)|\d[\d,]*|\bfile\.blend\b|\bLINEAR_SPLINE\b"
+    r"|\w+=\"\w+\"|\blambda_|\bmax_edges\b|(?<=engine )Automatic\b"
 )
 EMPTY_TABLE = re.compile(r"<!-- (\w+) -->\s*<!-- end of \1 -->")
 NOT_QUOTED = {"Message", "---"}

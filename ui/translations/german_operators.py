@@ -93,6 +93,14 @@ TEXTS = {
     "The selected meshes have no colors of Framelet": "Die ausgewählten Netze haben keine Farben von Framelet",
     "The active object must be a mesh": "Das aktive Objekt muss ein Netz sein",
     "Denoise a selected mesh first": "Zuerst ein ausgewähltes Netz entrauschen",
+    # What a script is told
+    "The engine {engine} does not use {names}; give {argument} for one that does.": (
+        "Das Verfahren {engine} verwendet {names} nicht; {argument} nimmt eines, das es tut."
+    ),
+    'tuning="NOISE" replaces {names} by values from the measured noise.': (
+        'tuning="NOISE" ersetzt {names} durch Werte aus dem gemessenen Rauschen.'
+    ),
+    "{name} has no effect without {argument}.": "{name} wirkt nicht ohne {argument}.",
     # Reports
     "{number} objects": "{number} Objekten",
     "Added noise of {sigma:g} edge lengths to {names}": (
