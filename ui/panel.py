@@ -38,7 +38,6 @@ ADVANCED_NAMES = (
     "sharpness",
     "passes",
     "vertex_steps",
-    "boundary",
     "threads",
 )
 CHOSEN = (

@@ -25,6 +25,7 @@ class VIEW3D_PT_framelet_region(FrameletPanel, bpy.types.Panel):
         _draw_group(column, settings, context.active_object)
         column.prop(settings, "keep_hidden")
         column.prop(settings, "keep_sharp")
+        column.prop(settings, "boundary")
         column.separator()
         column.prop(settings, "limit")
         if settings.limit != "NONE":

@@ -11,7 +11,7 @@ import pytest
 from drawing import draw
 from framelet.core.settings import PRESETS
 from framelet.operators import band_settings, mesh_facts, setting_values
-from framelet.ui import band_panels, panel, report_panels, see_panel
+from framelet.ui import band_panels, panel, region_panel, report_panels, see_panel
 from framelet.ui.layouts import FrameletPanel
 
 
@@ -31,6 +31,8 @@ def test_every_setting_of_a_method_is_shown_once(preset):
     bpy.context.scene.framelet.preset = preset
     method = PRESETS[preset].settings.method
     shown = draw(panel.VIEW3D_PT_framelet)["prop"] + draw(panel.VIEW3D_PT_framelet_advanced)["prop"]
+    region = draw(region_panel.VIEW3D_PT_framelet_region)["prop"]
+    shown += [name for name in region if name in setting_values.SETTING_NAMES]
     expected = [name for name in setting_values.PROPERTY_NAMES if setting_values.has_effect(method, name)]
     assert sorted(shown) == sorted(expected)
 
