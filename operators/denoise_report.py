@@ -55,7 +55,11 @@ def _noise_words(scene: bpy.types.Scene, report: FrameletReport) -> str:
     """Say which noise was measured and what was made of it; nothing if it was not measured."""
     if not report.has_noise:
         return ""
+    from ..core.automatic.filter import CLEAN  # and NumPy, which enabling the extension must not import
+
     noise = noise_text(scene, report.noise_sigma, report.noise_sigma_edges, report.is_impulsive)
     taken = report.recipe or report.parameters
     words = rpt_("; noise {noise}").format(noise=noise)
+    if taken == CLEAN:
+        return words + rpt_("; clean already")
     return words + (rpt_("; used {what}").format(what=taken) if taken else "")

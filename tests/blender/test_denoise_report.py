@@ -150,3 +150,10 @@ def test_parameters_that_were_taken_from_the_noise():
     both = [MeasuredReport(replace(core, noise=other.noise), 0, 0, 0), MeasuredReport(other, 0, 0, 0)]
     fill_report(report, dict(zip("AB", both, strict=True)))
     assert report.parameters == "Different for each"
+
+
+def test_a_clean_mesh_is_called_so(capfd):
+    bpy.ops.mesh.primitive_cube_add()
+    bpy.ops.object.framelet_denoise()
+    assert "0 of 8 vertices moved" in (out := capfd.readouterr().out)
+    assert re.search(r"; noise 0 m \(0\.000 edge lengths\); clean already$", out, re.MULTILINE)

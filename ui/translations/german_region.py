@@ -126,4 +126,5 @@ TEXTS = {
     ),
     "; noise {noise}": "; Rauschen {noise}",
     "; used {what}": "; verwendet: {what}",
+    "; clean already": "; schon sauber",
 }
