@@ -35,7 +35,15 @@ def chosen_texts(report: DenoiseReport) -> dict[str, str]:
     texts = [_recipe_texts(recipe) for recipe in recipes]
     names = texts[0] if texts else {}
     lines = {name: "\n".join(dict.fromkeys(each[name] for each in texts if each[name])) for name in names}
-    return {"chosen_recipe": "\n".join(recipe.label for recipe in recipes) or report.recipe, **lines}
+    return {
+        "chosen_recipe": "\n".join(recipe_lines(recipe.label) for recipe in recipes) or report.recipe,
+        **lines,
+    }
+
+
+def recipe_lines(label: str) -> str:
+    """Return the label of a recipe as the lines that fit into the sidebar."""
+    return label.replace(" after ", "\nafter ")
 
 
 def _is_named(words: list[str], labels: list[str]) -> bool:
@@ -47,17 +55,19 @@ def _recipe_texts(recipe: Recipe) -> dict[str, str]:
     """Return the words for one recipe."""
     from ..core.normals.pilot import COUPLING
 
+    averages = rpt_("{number} averages").format(number=recipe.n_averages)
     if not recipe.range_sigmas:
-        averages = rpt_("{number} averages").format(number=recipe.n_averages)
         return {
             "chosen_frame": n_("Low-pass"),
             "chosen_levels": averages,
             "chosen_lambda": "",
             "chosen_mu": "",
         }
+    frame = n_("Pairwise (normals)")
     return {
-        "chosen_frame": n_("Pairwise (normals)"),
-        "chosen_levels": str(recipe.n_bands),
+        # Lines, in the order in which a run takes them.
+        "chosen_frame": n_("Low-pass") + "\n" + frame if recipe.n_averages else frame,
+        "chosen_levels": f"{averages}\n{recipe.n_bands}" if recipe.n_averages else str(recipe.n_bands),
         "chosen_lambda": rpt_("{number} × noise").format(number=f"{recipe.threshold:g}"),
         "chosen_mu": f"{COUPLING:g}",
     }

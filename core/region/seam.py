@@ -7,11 +7,13 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from .linking import linked_groups
+
 RINGS = 4
 """Rings over which a shift fades in beside vertices that stay."""
 
 MEAN_STEPS = 64
-_INDEPENDENT = 20.0
+INDEPENDENT = 20
 """Steps of averaging along a ring, and how many independent vertices such a mean is worth, about
 2 sqrt(pi MEAN_STEPS / 2)."""
 
@@ -54,7 +56,8 @@ def fade_shift_in(
 
     Smoothing shrinks a surface a little, so that a part of it that moves as a whole would end in a step. A
     ring's shift is the mean motion across the surface along the ring, as far as it is more than chance; the
-    rest of the motion, which removes noise, is made in full.
+    rest of the motion, which removes noise, is made in full. Rings of fewer than `INDEPENDENT` vertices, as
+    beside small parts, tell nothing of a shift and are left alone.
 
     Parameters
     ----------
@@ -80,14 +83,20 @@ def fade_shift_in(
     # Rings are averaged along themselves only: across the seam the shift is not constant.
     along = edges[is_beside[edges].all(axis=1) & (ring[edges[:, 0]] == ring[edges[:, 1]])]
     along = rank[along[along[:, 0] != along[:, 1]]]
+    group = linked_groups(len(vertices), along[:, 0], along[:, 1])
+    is_long = np.bincount(group, minlength=len(vertices))[group] >= INDEPENDENT
+    if not is_long.any():
+        return
+    vertices = vertices[is_long]
+    rank = np.cumsum(is_long) - 1
+    along = rank[along[is_long[along[:, 0]]]]
     one, other = np.concatenate((along, along[:, ::-1])).T
     counts = np.bincount(one, minlength=len(vertices))
     height = np.einsum("cn,cn->n", found[:, vertices], normals[:, vertices])
     shift = height
     for _ in range(MEAN_STEPS):
-        sums = np.bincount(one, shift[other], len(vertices)) + (counts == 0) * shift
-        shift = 0.5 * (shift + sums / np.maximum(counts, 1))
+        shift = 0.5 * (shift + np.bincount(one, shift[other], len(vertices)) / counts)
     rest = height - shift
-    chance = CHANCE * np.sqrt((rest @ rest) / (len(vertices) * _INDEPENDENT))
+    chance = CHANCE * np.sqrt((rest @ rest) / (len(vertices) * INDEPENDENT))
     excess = np.sign(shift) * np.maximum(np.abs(shift) - chance, 0.0)
     found[:, vertices] -= normals[:, vertices] * ((1.0 - faded_in(ring[vertices])) * excess)

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..surface.surface_mesh import SurfaceMesh
+from .linking import linked_groups
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,16 +115,7 @@ def _linked(vertices: NDArray[np.floating], groups: NDArray[np.int64], distance:
     points = np.empty((n, 3))
     points[groups] = vertices
     first, second = _close_pairs(points, distance)
-    label = np.arange(n)
-    while True:
-        lower = np.minimum(label[first], label[second])
-        following = label.copy()
-        np.minimum.at(following, label[first], lower)
-        np.minimum.at(following, label[second], lower)
-        following = following[following]
-        if np.array_equal(following, label):
-            return label[groups]
-        label = following
+    return linked_groups(n, first, second)[groups]
 
 
 def _close_pairs(points: NDArray[np.float64], distance: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:

@@ -25,7 +25,9 @@ def test_every_recipe_has_words(recipe):
     found = texts(recipe.label, method="AUTO")
     assert list(found) == NAMES
     if recipe.range_sigmas:
-        assert found["chosen_levels"] == str(recipe.n_bands)
+        first = [f"{recipe.n_averages} averages"] if recipe.n_averages else []
+        assert found["chosen_levels"].splitlines() == [*first, str(recipe.n_bands)]
+        assert found["chosen_frame"].splitlines()[-1] == "Pairwise (normals)"
         assert found["chosen_lambda"] == f"{recipe.threshold} × noise"
         assert float(found["chosen_mu"]) == COUPLING
     else:

@@ -167,7 +167,7 @@ def test_volume_of_closed_meshes_and_number_of_objects():
     first = bpy.context.object
     bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=2)
     first.select_set(True)
-    bpy.ops.object.framelet_denoise()
+    bpy.ops.object.framelet_denoise(preset="TRI_2")
     labels = draw(report_panels.VIEW3D_PT_framelet_last_run)["label"]
     assert labels[labels.index("Objects") + 1] == "2"
     assert re.fullmatch(r"-\d+\.\d{2} %", labels[labels.index("Volume") + 1])
