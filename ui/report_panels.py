@@ -50,11 +50,22 @@ class VIEW3D_PT_framelet_last_run(FrameletPanel, bpy.types.Panel):
             draw_lengths(column, context.scene, "Noise", report.noise_sigma, report.noise_sigma_edges)
             if report.is_impulsive:
                 draw_value(column, "", "Impulsive")
-        for label, text in ((n_("Chosen"), report.recipe), (n_("From Noise"), report.parameters)):
-            if text:
-                draw_value(column, label, text)
+        label = n_("Chosen")
+        for line in _chosen_lines(context, report):
+            draw_value(column, label, line)
+            label = ""
+        if report.parameters:
+            draw_value(column, n_("From Noise"), report.parameters)
         draw_value(column, "Iterations", str(report.iterations))
         draw_value(column, "Time", f"{report.seconds:.2f} s")
+
+
+def _chosen_lines(context: bpy.types.Context, report: bpy.types.PropertyGroup) -> list[str]:
+    """Return what automatic denoising chose as lines that fit into the sidebar; none if it did not run."""
+    entry = context.window_manager.framelet_estimate.objects.get(report.names)
+    if report.recipe and entry and entry.is_denoised:
+        return entry.chosen_recipe.splitlines()
+    return report.recipe.split(", ") if report.recipe else []
 
 
 class VIEW3D_PT_framelet_noise(FrameletPanel, bpy.types.Panel):

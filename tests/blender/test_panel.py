@@ -47,6 +47,12 @@ def test_the_button_carries_the_scene_settings():
     assert (values.preset, values.mu) == ("TRI_1", 4.0)
 
 
+def panel_lines(label, each, following):
+    """Return the labels of a panel between two others."""
+    labels = draw(each)["label"]
+    return labels[labels.index(label) + 1 : labels.index(following)]
+
+
 def test_last_run_before_and_after():
     assert draw(report_panels.VIEW3D_PT_framelet_last_run)["label"] == ["Nothing was denoised yet"]
     bpy.ops.mesh.primitive_monkey_add()
@@ -56,7 +62,10 @@ def test_last_run_before_and_after():
     assert re.fullmatch(r"[\d.]+ cm", labels[labels.index("RMS") + 1])
     assert re.fullmatch(r"\d+\.\d{3} edge lengths", labels[labels.index("RMS") + 3])
     recipe = bpy.context.window_manager.framelet_report.recipe
-    assert labels[labels.index("Chosen") + 1] == recipe != ""
+    lines = labels[labels.index("Chosen") + 1 : labels.index("Iterations")]
+    # A line each, as in the panel above: two recipes do not fit into one.
+    assert " and ".join(line for line in lines if line).replace(" and after ", " after ") == recipe != ""
+    assert lines == panel_lines("Chosen", panel.VIEW3D_PT_framelet, "Frame")
     assert re.fullmatch(r"[\d.]+ c?m", labels[labels.index("Noise") + 1])
     bpy.ops.object.framelet_denoise(preset="TRI_2")
     labels = draw(report_panels.VIEW3D_PT_framelet_last_run)["label"]
