@@ -40,6 +40,8 @@ def write_ply(obj: bpy.types.Object, path: Path) -> None:
     """Write the mesh of an object, positions and faces only."""
     for other in bpy.context.scene.objects:
         other.select_set(other == obj)
+    # Blender 5.2 leaves out what is hidden in renders, without a word.
+    hidden, obj.hide_render = obj.hide_render, False
     bpy.ops.wm.ply_export(
         filepath=str(path),
         export_selected_objects=True,
@@ -50,6 +52,7 @@ def write_ply(obj: bpy.types.Object, path: Path) -> None:
         forward_axis="Y",
         up_axis="Z",
     )
+    obj.hide_render = hidden
 
 
 def _linked_object(name: str, mesh: bpy.types.Mesh) -> bpy.types.Object:
