@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ..blocks import Blocks
 from ..normals.centroids import face_centroids
 from ..normals.neighbors import Ragged, faces_of_vertices
-from ..normals.noise_sample import area_vectors, normals_of, scrambled, vertex_means
+from ..normals.noise_sample import PERIODS, area_vectors, normals_of, scrambled, vertex_means
 from ..normals.pilot import unit_columns
 from ..surface.connectivity import connect
 from ..surface.surface_mesh import SurfaceMesh
@@ -107,8 +107,9 @@ def choose_recipes(
     directions = _wide_normals(points, part.surface, at_vertex)
     counted = part.counts & directions.any(axis=0)
     if not counted.any():
+        tick(1.0)
         return (RECIPES[0],)
-    sample = unit_noise(scrambled(points, part.surface, at_vertex, sigma, 64.0))
+    sample = unit_noise(scrambled(points, part.surface, at_vertex, sigma, PERIODS))
     problem = NormalProblem(points, part.surface, connectivity, sigma, blocks, sample)
     n_probes = min(N_PROBES[0], -(-N_PROBES[1] // part.surface.n_faces))
     share = 1.0 / ((1 + n_probes) * len(RECIPES))

@@ -8,8 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
-from ..surface.face_changes import face_tips
-from ..surface.geometry import area_rows
+from ..surface.geometry import area_rows, face_tips
 from ..surface.surface_mesh import SurfaceMesh
 from .carrier import Carrier
 from .corner_lists import corners_of, face_of, faces_at, some_faces
