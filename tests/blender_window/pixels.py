@@ -101,13 +101,13 @@ def saturated(picture: np.ndarray, threshold: int = 30) -> float:
 def changed_box(before: np.ndarray, after: np.ndarray, threshold: int = 12) -> tuple[int, int, int, int]:
     """Return left, bottom, width and height of what has changed, as Blender counts pixels.
 
-    Columns and rows of which less than a fifth of the most changed one has changed do not count.
+    Columns and rows of which less than half of the most changed one has changed do not count.
     """
     difference = np.abs(before.astype(np.int16) - after.astype(np.int16)).max(axis=2) > threshold
     ranges = []
     for axis in (0, 1):
         counts = difference.sum(axis=axis)
-        places = np.flatnonzero(counts > 0.2 * max(counts.max(), 1))
+        places = np.flatnonzero(counts > 0.5 * max(counts.max(), 1))
         ranges.append((int(places[0]), int(places[-1]) + 1) if len(places) else (0, 0))
     (left, right), (top, bottom) = ranges
     return left, before.shape[0] - bottom, right - left, bottom - top
