@@ -88,10 +88,10 @@ def choose_recipes(
     -----
     Stein's estimate of the mean squared error (Ramani, Blu, Unser 2008), for displacements q along the
     normals of the noisy mesh: mean(q^2) - sigma^2 + 2 sigma^2 mean(b dr / eps), where dr is how the result
-    changes when the vertices move by eps b, b = +-1. In units of sigma^2 and plus `UNCERTAINTY`, it is multiplied
-    by powers of two measures of roughness (see `_Roughness`), as the error of positions says little about
-    roughness, which is what people see. Estimates below zero say that the noise was estimated too strong; all
-    are raised by as much.
+    changes when the vertices move by eps b, b = +-1. In units of sigma^2 and plus `UNCERTAINTY`, it is
+    multiplied by powers of two measures of roughness (see `_Roughness`), as the error of positions says
+    little about roughness, which is what people see. Estimates below zero say that the noise was estimated
+    too strong; all are raised by as much.
 
     Two results whose errors differ are better on average than each of them. The risk of a mean of two results
     needs no further run.
