@@ -173,15 +173,6 @@ def test_roughness_of_nothing():
     assert choose._Roughness(problem_of(mesh), np.ones(3, bool)).of(mesh.vertices.T) == (0.0, 0.0)
 
 
-def test_displacements_are_split_into_heights_and_slides(rng):
-    apart, directions = rng.normal(size=(2, 3, 20))
-    directions /= np.linalg.norm(directions, axis=0)
-    counted = rng.random(20) < 0.5
-    height, slide = choose._split(apart, directions, counted)
-    assert np.abs((slide * directions[:, counted]).sum(axis=0)).max() < 1e-12
-    assert np.abs(height * directions[:, counted] + slide - apart[:, counted]).max() < 1e-12
-
-
 @KIND
 def test_smoothing_before_acts_on_the_noise_alike(kind, rng):
     """What a recipe is told of the noise that is left is what smoothing does to a number at each vertex."""
