@@ -114,11 +114,6 @@ def length_text(scene: bpy.types.Scene, length: float) -> str:
     )
 
 
-def value_text(scene: bpy.types.Scene, value: float, is_angle: bool) -> str:
-    """Return what a color stands for in words: a length with its sign, or an angle in degrees."""
-    return value_texts(scene, [value], is_angle)[0]
-
-
 def value_texts(scene: bpy.types.Scene, values: Sequence[float], is_angle: bool) -> list[str]:
     """Return lengths with their signs in words, all in the unit of the largest, or angles in degrees."""
     unit, size = "°" if is_angle else "", 1.0

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ..blocks import Blocks
 from ..normals.centroids import face_centroids
 from ..normals.neighbors import Ragged, faces_of_vertices
-from ..normals.noise_sample import area_vectors, normals_of, scrambled, vertex_means
+from ..normals.noise_sample import PERIODS, area_vectors, normals_of, scrambled, vertex_means
 from ..normals.pilot import unit_columns
 from ..surface.connectivity import connect
 from ..surface.surface_mesh import SurfaceMesh
@@ -40,10 +40,6 @@ without probes: they do not tell more than that apart."""
 UNCERTAINTY = 0.08
 """In units of the variance of the noise: how well risks are known. It is added to them, so that risks that
 are all nearly zero leave the choice to smoothness."""
-
-SLIDING = 0.1
-"""How much the mean squared displacement within the surface counts, which changes no shape but stretches the
-faces, beside the risk across it."""
 
 SMOOTHNESS = (0.5, 0.25)
 """Powers of the two measures of roughness that risks are multiplied by."""
@@ -92,10 +88,10 @@ def choose_recipes(
     -----
     Stein's estimate of the mean squared error (Ramani, Blu, Unser 2008), for displacements q along the
     normals of the noisy mesh: mean(q^2) - sigma^2 + 2 sigma^2 mean(b dr / eps), where dr is how the result
-    changes when the vertices move by eps b, b = +-1. In units of sigma^2, with a little for displacements
-    within the surface and plus `UNCERTAINTY`, it is multiplied by powers of two measures of roughness (see
-    `_Roughness`), as the error of positions says little about roughness, which is what people see. Estimates
-    below zero say that the noise was estimated too strong; all are raised by as much.
+    changes when the vertices move by eps b, b = +-1. In units of sigma^2 and plus `UNCERTAINTY`, it is
+    multiplied by powers of two measures of roughness (see `_Roughness`), as the error of positions says
+    little about roughness, which is what people see. Estimates below zero say that the noise was estimated
+    too strong; all are raised by as much.
 
     Two results whose errors differ are better on average than each of them. The risk of a mean of two results
     needs no further run.
@@ -107,17 +103,17 @@ def choose_recipes(
     directions = _wide_normals(points, part.surface, at_vertex)
     counted = part.counts & directions.any(axis=0)
     if not counted.any():
+        tick(1.0)
         return (RECIPES[0],)
-    sample = unit_noise(scrambled(points, part.surface, at_vertex, sigma, 64.0))
+    sample = unit_noise(scrambled(points, part.surface, at_vertex, sigma, PERIODS))
     problem = NormalProblem(points, part.surface, connectivity, sigma, blocks, sample)
     n_probes = min(N_PROBES[0], -(-N_PROBES[1] // part.surface.n_faces))
     share = 1.0 / ((1 + n_probes) * len(RECIPES))
-    results, heights, slides = [], [], []
+    results, heights = [], []
     for recipe in RECIPES:
         results.append(problem.run(recipe, is_unfolded=False))
-        height, slide = _split(results[-1] - points, directions, counted)
-        heights.append(height)
-        slides.append(slide)
+        height = np.einsum("cn,cn->n", results[-1] - points, directions)
+        heights.append(height[counted].astype(np.float64))
         tick(share)
     spread = np.array([np.mean(height * height) for height in heights]) / sigma**2
     hopeful = np.flatnonzero(spread <= spread.min() + HOPELESS)
@@ -147,9 +143,8 @@ def choose_recipes(
             members = list(choice)
             result = np.mean([results[index] for index in members], axis=0, dtype=noisy.dtype)
             height = np.mean([heights[index] for index in members], axis=0)
-            slide = np.mean([slides[index] for index in members], axis=0)
-            squares = np.mean(height * height) + SLIDING * 3.0 * np.mean(slide * slide)
-            judged.append((squares / sigma**2 - 1.0 + 2.0 * divergence[members].mean(), *rough.of(result)))
+            chosen_risk = np.mean(height * height) / sigma**2 - 1.0 + 2.0 * divergence[members].mean()
+            judged.append((chosen_risk, *rough.of(result)))
         return np.array(judged).T
 
     singles = [(int(index),) for index in hopeful]
@@ -169,15 +164,6 @@ def scores(risk: NDArray[np.float64], *roughness: NDArray[np.float64]) -> NDArra
         smallest = max(float(rough.min()), TINY_ROUGHNESS)
         found = found * (np.maximum(rough, smallest) / smallest) ** power
     return found
-
-
-def _split(
-    displacement: NDArray[np.floating], directions: NDArray[np.floating], counted: NDArray[np.bool_]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return displacements along directions, shape (n,), and across, shape (3, n), of counted vertices."""
-    apart, along = displacement[:, counted].astype(np.float64), directions[:, counted].astype(np.float64)
-    height = np.einsum("cn,cn->n", apart, along)
-    return height, apart - height * along
 
 
 def _wide_normals(

@@ -28,8 +28,7 @@ CHOOSING_SHARE = 0.5
 
 LARGEST_RATIO = 1.4
 """Of impulsive noise the root mean square counts, up to so many times the noise of the quieter places: on
-coarse
-machine parts it is uncertain."""
+coarse machine parts it is uncertain."""
 
 CLEAN = "Clean already"
 
@@ -91,17 +90,17 @@ def automatic_filter(
     sigma = settings.strength * level / edge
     if sigma < LEAST_NOISE:
         return Automatic(noisy, 0, False, noise, CLEAN)
-    done, total = 0.0, 1.0
+    done = 0.0
 
     def advance(share: float, change: float = 0.0) -> None:
         nonlocal done
-        done = min(done + share, total)
+        done = min(done + share, 1.0)
         if callback is not None and callback(done, change):
             raise _Stopped
 
     try:
         recipes = choose_recipes(noisy, surface, sigma, blocks, lambda share: advance(CHOOSING_SHARE * share))
-        step = (1.0 - CHOOSING_SHARE) / sum(map(n_ticks, recipes))
+        step = (1.0 - CHOOSING_SHARE) / n_ticks(recipes)
         problem = NormalProblem(noisy, surface, connectivity, sigma, blocks)
         points = problem.run_all(recipes, constraints, lambda change: advance(step, change))
     except _Stopped:

@@ -15,7 +15,7 @@ from ..surface.surface_mesh import SurfaceMesh
 WHOLE = 7000
 """Faces up to which the whole mesh is used."""
 
-N_PATCHES = 6
+N_PATCHES = 10
 FACES_IN_PATCH = 1100
 INNER = 0.6
 """Share of a patch's radius within which vertices count: farther out the cut is too near."""

@@ -19,7 +19,14 @@ from ..normals.centroids import face_centroids
 from ..normals.face_averages import FaceAverages, face_averages
 from ..normals.folds import unfold
 from ..normals.neighbors import edge_neighbors, faces_of_vertices
-from ..normals.noise_sample import area_vectors, noise_in_normals, normals_of, scrambled, vertex_means
+from ..normals.noise_sample import (
+    PERIODS,
+    area_vectors,
+    noise_in_normals,
+    normals_of,
+    scrambled,
+    vertex_means,
+)
 from ..normals.pilot import median_difference, pilot_normals, unit_columns
 from ..normals.vertex_fit import VertexFit
 from ..surface.connectivity import Connectivity
@@ -82,7 +89,7 @@ class NormalProblem:
         self._connectivity = connectivity
         self.at_vertex = faces_of_vertices(surface)
         if sample is None:
-            sample = unit_noise(scrambled(noisy, surface, self.at_vertex, sigma, 64.0, blocks))
+            sample = unit_noise(scrambled(noisy, surface, self.at_vertex, sigma, PERIODS, blocks))
         self.sample = sample
         self.units: dict[int, float] = {}
         """Median differences that the noise makes between neighboring normals, by the averages before."""
@@ -213,6 +220,8 @@ class NormalProblem:
             points = self.fitted(start, normals, recipe.vertex_steps, constraints, tick)
         else:
             points = self.start(recipe.n_averages).points
+            if constraints is not None:
+                points = points.copy()  # others start from them, where nothing is held yet
             tick(0.0)
             normals = self._normals_around(points)
         if not is_unfolded:

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from ..normals.pilot import ITERATIONS
@@ -52,8 +53,9 @@ RECIPES = (
 """For weak to strong noise and, within each of these groups, from machine parts to organic shapes."""
 
 
-def n_ticks(recipe: Recipe) -> int:
-    """Return how often a run of a recipe calls `tick`, if its pilot is not there yet."""
-    if not recipe.range_sigmas:
-        return 1
-    return ITERATIONS + len(recipe.range_sigmas) * recipe.n_bands + recipe.vertex_steps
+def n_ticks(recipes: Sequence[Recipe]) -> int:
+    """Return how often running recipes one after the other calls `tick`; they share pilots that are alike."""
+    on_normals = [recipe for recipe in recipes if recipe.range_sigmas]
+    n_pilots = len({(recipe.n_averages, recipe.threshold) for recipe in on_normals})
+    others = (len(recipe.range_sigmas) * recipe.n_bands + recipe.vertex_steps for recipe in on_normals)
+    return n_pilots * ITERATIONS + sum(others) + len(recipes) - len(on_normals)

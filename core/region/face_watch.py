@@ -8,8 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
-from ..surface.face_changes import face_tips
-from ..surface.geometry import area_rows
+from ..surface.geometry import area_rows, face_tips
 from ..surface.surface_mesh import SurfaceMesh
 from .carrier import Carrier
 from .corner_lists import corners_of, face_of, faces_at, some_faces
@@ -60,6 +59,9 @@ class FaceWatch:
         self.areas, self.volume = self.before, self.volume_before
         self.is_folded, self.is_degenerate = self.was_folded, self.was_degenerate
         self._is_over = np.zeros(carrier.topology.n_faces, bool)
+        has_other = np.flatnonzero(carrier.connectivity.face_across >= 0)
+        self._is_single = np.ones(carrier.topology.n_faces, bool)
+        self._is_single[face_of(carrier.topology, has_other)] = False
 
     @property
     def area_before(self) -> float:
@@ -72,11 +74,12 @@ class FaceWatch:
         return int(np.count_nonzero(dots(self.areas, self.before) < 0.0))
 
     def is_bad(self) -> NDArray[np.bool_]:
-        """Return which faces are worse than they were, shape (F,): folded, turned over, or degenerate.
+        """Return which faces are worse than they were, shape (F,): folded, degenerate, or turned over.
 
-        A face has turned over if it is now at more than a right angle to its old normal and to the old
-        normals around it, and was not at more than a right angle to those before. So a fold or a spike of
-        the input may be smoothed out, which turns its faces too.
+        Only faces that nothing can be folded against count as turned over, by more than a right angle: those
+        without a face across an edge, and all where faces do not agree about their orientation. Elsewhere old
+        normals tell nothing: under strong noise they point anywhere, and a fold or a spike that is smoothed
+        out turns its faces.
         """
         bad = self.is_folded & ~self.was_folded
         bad |= self.is_degenerate & ~self.was_degenerate
@@ -147,17 +150,13 @@ class FaceWatch:
         return dots(areas, areas) <= DEGENERATE * DEGENERATE
 
     def _over(self, faces: NDArray[np.intp] | None = None) -> NDArray[np.bool_]:
-        """Return which of some faces, by default of all, have turned over, shape (n,), bool."""
+        """Return which of some faces, by default of all, count as turned over, shape (n,), bool."""
         if faces is None:
             over = dots(self.areas, self.before) < 0.0
         else:
             over = dots(self.areas[:, faces], self.before[:, faces]) < 0.0
-        some = np.flatnonzero(over)
-        if len(some) and self.carrier.connectivity.is_oriented:
-            turned = some if faces is None else faces[some]
-            around = self._around(self.before, turned)
-            over[some] = dots(self.areas[:, turned], around) < 0.0
-            over[some] &= dots(self.before[:, turned], around) >= 0.0
+        if self.carrier.connectivity.is_oriented:
+            over &= self._is_single if faces is None else self._is_single[faces]
         return over
 
     def _folded(self, areas: NDArray[np.float64], faces: NDArray[np.intp] | None = None) -> NDArray[np.bool_]:

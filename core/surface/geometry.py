@@ -174,3 +174,27 @@ def signed_volume(surface: SurfaceMesh, area_vectors: NDArray[np.float64] | None
         tip[faces] = surface.vertices[surface.corner_vertex[corner]].mean(axis=1, dtype=np.float64)
     tip -= tip.mean(axis=0)  # near the origin, so that a mesh far away loses no digits
     return float(np.einsum("fi,fi->", tip, vectors[filled]) / 3.0)
+
+
+def face_tips(
+    points: NDArray[np.float64], surface: SurfaceMesh, start: int, stop: int
+) -> NDArray[np.float64]:
+    """Return a point of each of the faces start to stop, shape (3, n).
+
+    For a triangle every point of its plane gives the same volume, and the first corner costs least; larger
+    faces count as fans around the mean of their corners.
+    """
+    first = surface.face_offset[start:stop]
+    counts = surface.face_offset[start + 1 : stop + 1] - first
+    tips = points.take(
+        surface.corner_vertex[np.minimum(first, max(surface.n_corners - 1, 0))], axis=1, mode="clip"
+    )
+    tips[:, counts == 0] = 0.0
+    large = np.flatnonzero(counts > 3)
+    if len(large):
+        sizes = counts[large]
+        begin = np.cumsum(sizes) - sizes
+        corner = np.arange(sizes.sum()) + np.repeat(first[large] - begin, sizes)
+        corners = points.take(surface.corner_vertex[corner], axis=1, mode="clip")
+        tips[:, large] = np.add.reduceat(corners, begin, axis=1) / sizes
+    return tips

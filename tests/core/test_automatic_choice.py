@@ -7,33 +7,21 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from checks import assert_same_bits, lengths
-from framelet.core import SurfaceMesh, connect
+from framelet.core import connect
 from framelet.core.automatic import choose, patches
 from framelet.core.automatic.patches import trial_part
 from framelet.core.automatic.problem import NormalProblem
 from framelet.core.automatic.recipes import RECIPES
 from framelet.core.automatic.smooth_positions import ORDER, RingAverages, smooth_positions
-from framelet.core.blocks import Blocks
 from framelet.core.denoising.constraints import find_constraints
 from framelet.core.normals.folds import unfold
 from framelet.core.normals.noise_sample import area_vectors
 from framelet.core.settings import PRESETS
-from meshes import MESHES, faces_of, noisy, soup, triangle_grid, triangle_torus, union
+from kinds import ALONE, BLOCKS, KIND, KINDS
+from meshes import MESHES, faces_of, noisy, triangle_grid, triangle_torus, union
 from twins import faces_across, newell
 
 ROUNDING = 1e-12
-ALONE = Blocks(1)
-KINDS = {
-    **{
-        name: MESHES[name]
-        for name in ("irregular torus", "quad torus", "mixed sheet", "prism", "three pages")
-    },
-    "border": MESHES["irregular grid"],
-    "soup": lambda: soup(0, shortest=1),
-    "empty faces": lambda: SurfaceMesh.from_faces(np.eye(5, 3), [(), (0, 1, 2), (), (2, 4, 0), (3,), ()]),
-}
-KIND = pytest.mark.parametrize("kind", KINDS)
-BLOCKS = pytest.mark.parametrize("blocks", [ALONE, Blocks(1, 7)], ids=["one block", "blocks"])
 
 
 @KIND
@@ -185,16 +173,7 @@ def test_roughness_of_nothing():
     assert choose._Roughness(problem_of(mesh), np.ones(3, bool)).of(mesh.vertices.T) == (0.0, 0.0)
 
 
-def test_displacements_are_split_into_heights_and_slides(rng):
-    apart, directions = rng.normal(size=(2, 3, 20))
-    directions /= np.linalg.norm(directions, axis=0)
-    counted = rng.random(20) < 0.5
-    height, slide = choose._split(apart, directions, counted)
-    assert np.abs((slide * directions[:, counted]).sum(axis=0)).max() < 1e-12
-    assert np.abs(height * directions[:, counted] + slide - apart[:, counted]).max() < 1e-12
-
-
-@pytest.mark.parametrize("kind", KINDS)
+@KIND
 def test_smoothing_before_acts_on_the_noise_alike(kind, rng):
     """What a recipe is told of the noise that is left is what smoothing does to a number at each vertex."""
     problem = problem_of(noisy(KINDS[kind](), rng))

@@ -7,7 +7,6 @@ import pytest
 from checks import assert_same_bits, lengths
 from framelet.core import SurfaceMesh
 from framelet.core.automatic.problem import unit_noise
-from framelet.core.blocks import Blocks
 from framelet.core.normals.averages import Averages, Members
 from framelet.core.normals.band_shrinkage import LEFT_OUT, _averaged_often, _power_series, shrink_bands
 from framelet.core.normals.face_averages import FaceAverages
@@ -16,22 +15,11 @@ from framelet.core.normals.neighbors import Ragged, faces_of_vertices, members_a
 from framelet.core.normals.noise_sample import area_vectors, noise_in_normals, scrambled, vertex_means
 from framelet.core.normals.pilot import unit_columns
 from framelet.core.surface.geometry import face_area_vectors
-from meshes import MESHES, faces_of, noisy, soup, triangle_torus
+from kinds import ALONE, BLOCKS, KIND, KINDS
+from meshes import MESHES, faces_of, noisy, triangle_torus
 from twins import faces_touching, newell
 
 ROUNDING = 1e-12
-ALONE = Blocks(1)
-KINDS = {
-    **{
-        name: MESHES[name]
-        for name in ("irregular torus", "quad torus", "mixed sheet", "prism", "three pages")
-    },
-    "border": MESHES["irregular grid"],
-    "soup": lambda: soup(0, shortest=1),
-    "empty faces": lambda: SurfaceMesh.from_faces(np.eye(5, 3), [(), (0, 1, 2), (), (2, 4, 0), (3,), ()]),
-}
-KIND = pytest.mark.parametrize("kind", KINDS)
-BLOCKS = pytest.mark.parametrize("blocks", [ALONE, Blocks(1, 7)], ids=["one block", "blocks"])
 
 
 def face_averages(mesh, rng, blocks=ALONE, sigma=0.8):

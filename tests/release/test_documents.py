@@ -12,6 +12,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 DOCUMENTS = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md")])
 LINK = re.compile(r"\]\(([^)\s]+)\)|src=\"([^\"]+)\"")
+PATH = re.compile(r"`((?:\.ci|core|docs|operators|tests|ui)/[^`* ]*)`")
 HEADING = re.compile(r"^#+ +(.*)$", re.MULTILINE)
 ROW = re.compile(r"^\| ([^|]+) \|", re.MULTILINE)
 VARIABLE = re.compile(
@@ -50,6 +51,13 @@ def test_links_lead_somewhere(document):
         if place and path.suffix == ".md":
             headings = HEADING.findall(path.read_text(encoding="utf-8"))
             assert place in {anchor(heading) for heading in headings}, target
+
+
+@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: str(path.relative_to(ROOT)))
+def test_files_that_are_named_are_there(document):
+    for name in PATH.findall(document.read_text(encoding="utf-8")):
+        is_made = name.endswith(".csv") and is_unmeasured(document)
+        assert (ROOT / name).exists() or is_made, name
 
 
 def test_pages_can_be_found_from_the_index():

@@ -6,7 +6,6 @@ from dataclasses import dataclass, field
 
 SIZES = (10_000, 100_000, 1_000_000, 4_000_000)
 QUICK_SIZES = (2_000, 4_000)
-MILLION = 1_000_000
 LIVE = 50_000
 """Vertices of the mesh on which a value is dragged."""
 

@@ -107,6 +107,7 @@ def target_table(rows):
             ratio((tri, million, "iteration"), (tri, million, "floor")),
         ),
         ("Adaptive with 3 levels, 1M vertices, s", 15.0, value(adaptive, million, "all")),
+        ("stencils of it, dilated up to distance 4, s", 10.0, value(adaptive, million, "stencils")),
         ("Automatic, 1M vertices, s", 20.0, value("Automatic", million, "all")),
         ("the same in Blender, s", 20.0, value("Automatic in Blender", million, "all")),
         (

@@ -1,0 +1,115 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs of recipes on one mesh: their progress, what they share, and where nothing can be tried."""
+
+from itertools import combinations
+
+import numpy as np
+import pytest
+from checks import assert_same_bits
+from framelet.core import PRESETS, SurfaceMesh, connect, denoise
+from framelet.core.automatic import choose
+from framelet.core.automatic import filter as engine
+from framelet.core.automatic.problem import NormalProblem
+from framelet.core.automatic.recipes import RECIPES, n_ticks
+from framelet.core.blocks import Blocks
+from framelet.core.denoising.constraints import find_constraints
+from kinds import ALONE, KIND, KINDS
+from meshes import noisy, triangle_torus
+
+AUTO = PRESETS["AUTO"].settings
+PAIRS = list(combinations(RECIPES, 2))
+SHARED = [
+    pair
+    for pair in PAIRS
+    if pair[0].n_averages == pair[1].n_averages and pair[0].threshold == pair[1].threshold
+]
+"""Pairs of recipes with one pilot; where there is none it is the rest that is shared."""
+
+
+def problem_of(mesh, dtype=float):
+    return NormalProblem(mesh.vertices.T.astype(dtype), mesh, connect(mesh), 0.1, ALONE)
+
+
+def free(mesh, movable=None, dtype=float):
+    movable = np.ones(mesh.n_vertices, bool) if movable is None else movable
+    return find_constraints(mesh, connect(mesh), AUTO, movable, np.dtype(dtype))
+
+
+@pytest.mark.parametrize("recipes", [*((recipe,) for recipe in RECIPES), *SHARED, *PAIRS[::17]])
+def test_ticks_are_counted_before_the_run(recipes, rng):
+    mesh, ticks = noisy(triangle_torus(4, 5), rng), []
+    problem_of(mesh).run_all(recipes, free(mesh), ticks.append)
+    assert len(ticks) == n_ticks(recipes) and min(ticks) >= 0
+
+
+def test_some_pairs_share_a_pilot():
+    assert any(first.range_sigmas and second.range_sigmas for first, second in SHARED)
+
+
+@pytest.mark.parametrize("recipes", [SHARED[0], (RECIPES[-1],), (RECIPES[0], RECIPES[-1])])
+def test_progress_ends_at_one_whatever_is_chosen(recipes, rng, monkeypatch):
+    seen = []
+    monkeypatch.setattr(engine, "choose_recipes", lambda *given: given[-1](1.0) or recipes)
+    result = denoise(noisy(triangle_torus(), rng), AUTO, callback=lambda *given: bool(seen.append(given)))
+    fractions = [fraction for fraction, _ in seen]
+    assert result.report.recipe == " and ".join(recipe.label for recipe in recipes)
+    assert fractions == sorted(fractions) and fractions[-1] == pytest.approx(1.0, abs=1e-9)
+
+
+def test_the_mean_of_two_runs(rng):
+    """Which of them runs first does not matter, nor what else was run on the problem."""
+    mesh = noisy(triangle_torus(6, 8), rng)
+    movable = rng.random(mesh.n_vertices) < 0.5
+    for pair in (*SHARED, PAIRS[0], PAIRS[-1]):
+        found = problem_of(mesh).run_all(pair, free(mesh, movable))
+        again = problem_of(mesh).run_all(pair[::-1], free(mesh, movable))
+        assert_same_bits(found[:, ~movable], mesh.vertices.T[:, ~movable])
+        assert np.abs(found - again).max() < 1e-12
+
+
+@pytest.mark.parametrize("recipe", RECIPES, ids=lambda recipe: recipe.label)
+def test_runs_leave_what_others_start_from_alone(recipe, rng):
+    mesh = noisy(triangle_torus(6, 8), rng)
+    problem = problem_of(mesh)
+    start = problem.start(recipe.n_averages)
+    given = [x.copy() for x in (problem.noisy, start.points, start.normals, start.sample)]
+    first = problem.run(recipe, free(mesh, rng.random(mesh.n_vertices) < 0.5)).copy()
+    for before, after in zip(given, (problem.noisy, start.points, start.normals, start.sample), strict=True):
+        assert_same_bits(before, after)
+    assert (problem.run(recipe, free(mesh)) != first).any()
+
+
+@KIND
+@pytest.mark.parametrize(("sigma", "dtype"), [(1e-3, np.float64), (0.3, np.float32), (30.0, np.float32)])
+def test_every_kind_of_mesh_gets_a_recipe(kind, sigma, dtype, rng):
+    """Also where the noise is far stronger or weaker than any that is measured."""
+    mesh, ticks = noisy(KINDS[kind](), rng), []
+    points = mesh.vertices.T.astype(dtype)
+    given = points.copy()
+    recipes = choose.choose_recipes(points, mesh, sigma, ALONE, ticks.append)
+    assert 1 <= len(recipes) <= 2 and set(recipes) <= set(RECIPES)
+    assert sum(ticks) == pytest.approx(1.0, abs=1e-9)
+    assert_same_bits(points, given)
+    problem = NormalProblem(points, mesh, connect(mesh), sigma, ALONE)
+    found = problem.run_all(recipes, free(mesh, dtype=dtype))
+    assert found.dtype == dtype and np.isfinite(found).all()
+
+
+def test_the_choice_does_not_depend_on_threads(rng):
+    mesh = noisy(triangle_torus(20, 24), rng)
+    points = mesh.vertices.T.astype(np.float32)
+    chosen = [choose.choose_recipes(points, mesh, 0.1, blocks) for blocks in (ALONE, Blocks(2, 100))]
+    assert chosen[0] == chosen[1]
+
+
+def test_where_no_face_has_an_area_there_is_nothing_to_try():
+    mesh, ticks = SurfaceMesh.from_faces(np.arange(12.0).reshape(4, 3), [(0, 1, 2), (1, 2, 3)]), []
+    recipes = choose.choose_recipes(mesh.vertices.T.copy(), mesh, 0.1, ALONE, ticks.append)
+    assert recipes == (RECIPES[0],) and ticks == [1.0]
+
+
+def test_large_meshes_take_one_recipe(rng, monkeypatch):
+    mesh = noisy(triangle_torus(), rng)
+    monkeypatch.setattr(choose, "PAIRED_UP_TO", mesh.n_faces - 1)
+    assert len(choose.choose_recipes(mesh.vertices.T.copy(), mesh, 0.1, ALONE)) == 1
