@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ..normals.centroids import face_centroids
 from ..surface.surface_mesh import SurfaceMesh
 
-WHOLE = 7000
+WHOLE = 11000
 """Faces up to which the whole mesh is used."""
 
 N_PATCHES = 10

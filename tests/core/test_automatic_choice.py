@@ -116,7 +116,7 @@ def test_small_meshes_are_tried_whole():
 
 @pytest.mark.parametrize("kind", ["triangles", "mixed"])
 def test_parts_of_large_meshes(kind, rng):
-    large = triangle_torus(60, 80)
+    large = triangle_torus(80, 100)
     mesh = noisy(
         large if kind == "triangles" else union(large, MESHES["mixed sheet"](), MESHES["prism"]()), rng
     )

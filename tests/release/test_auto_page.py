@@ -11,7 +11,7 @@ from framelet.core.automatic.recipes import RECIPES
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = " ".join((ROOT / "docs" / "how_auto_decides.md").read_text(encoding="utf-8").split())
-WORDS = {4: "four", 6: "six", 16: "sixteen"}
+WORDS = {10: "ten", 4: "four", 6: "six", 16: "sixteen"}
 
 
 def listed_recipes():
@@ -62,7 +62,7 @@ def test_the_number_of_recipes():
         f"up to {WORDS[choose.N_PROBES[0]]} different b",
         f"eps = {choose.PROBE}",
         f"counts with {choose.LARGEST_RESPONSE:.0f} at most",
-        f"+ {choose.SLIDING} s / sigma² + {choose.UNCERTAINTY})",
+        f"least risk / sigma²) + {choose.UNCERTAINTY})",
         f"Means of two of the {choose.N_PAIRED} best results",
         f"Beyond {choose.PAIRED_UP_TO:,} faces only single recipes",
     ],
