@@ -63,6 +63,7 @@ def choose_recipes(
     sigma: float,
     blocks: Blocks,
     tick: Callable[[float], None] = lambda _: None,
+    strength: float = 1.0,
 ) -> tuple[Recipe, ...]:
     """Try all recipes on parts of a mesh and return the best one, or the best two to be averaged.
 
@@ -78,6 +79,8 @@ def choose_recipes(
         Threads to work on.
     tick : callable, optional
         Called after each run with the share of the work that it was.
+    strength : float, optional
+        How much more smoothness counts: factor on the powers of roughness.
 
     Returns
     -------
@@ -150,19 +153,24 @@ def choose_recipes(
     singles = [(int(index),) for index in hopeful]
     alone = judge(singles)
     if surface.n_faces > PAIRED_UP_TO:
-        return (RECIPES[singles[int(np.argmin(scores(*alone)))][0]],)
-    best = hopeful[np.argsort(scores(*alone), kind="stable")[:N_PAIRED]]
+        return (RECIPES[singles[int(np.argmin(scores(*alone, strength=strength)))][0]],)
+    best = hopeful[np.argsort(scores(*alone, strength=strength), kind="stable")[:N_PAIRED]]
     choices = singles + [(int(first), int(second)) for first, second in combinations(np.sort(best), 2)]
     judged = np.concatenate((alone, judge(choices[len(singles) :])), axis=1) if len(best) > 1 else alone
-    return tuple(RECIPES[index] for index in choices[int(np.argmin(scores(*judged)))])
+    return tuple(RECIPES[index] for index in choices[int(np.argmin(scores(*judged, strength=strength)))])
 
 
-def scores(risk: NDArray[np.float64], *roughness: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return what is to be small, shape (n,): risks in variances of the noise times powers of roughness."""
+def scores(
+    risk: NDArray[np.float64], *roughness: NDArray[np.float64], strength: float = 1.0
+) -> NDArray[np.float64]:
+    """Return what is to be small, shape (n,): risks in variances of the noise times powers of roughness.
+
+    The powers are multiplied by `strength`: who asks for more than was measured wants it smoother.
+    """
     found = risk - min(0.0, float(risk.min())) + UNCERTAINTY
     for rough, power in zip(roughness, SMOOTHNESS, strict=True):
         smallest = max(float(rough.min()), TINY_ROUGHNESS)
-        found = found * (np.maximum(rough, smallest) / smallest) ** power
+        found = found * (np.maximum(rough, smallest) / smallest) ** (strength * power)
     return found
 
 

@@ -99,7 +99,14 @@ def automatic_filter(
             raise _Stopped
 
     try:
-        recipes = choose_recipes(noisy, surface, sigma, blocks, lambda share: advance(CHOOSING_SHARE * share))
+        recipes = choose_recipes(
+            noisy,
+            surface,
+            sigma,
+            blocks,
+            lambda share: advance(CHOOSING_SHARE * share),
+            strength=settings.strength,
+        )
         step = (1.0 - CHOOSING_SHARE) / n_ticks(recipes)
         problem = NormalProblem(noisy, surface, connectivity, sigma, blocks)
         points = problem.run_all(recipes, constraints, lambda change: advance(step, change))

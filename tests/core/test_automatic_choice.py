@@ -146,6 +146,11 @@ def test_scores_are_risks_times_powers_of_roughness():
     lifted = score(risk - 0.4, plain, plain)
     assert np.abs(np.diff(lifted) - np.diff(risk)).max() < 1e-12
     assert lifted.min() == pytest.approx(choose.UNCERTAINTY)
+    # The stronger, the more smoothness counts; at strength 0 the risk alone does.
+    smoother = np.array([0.5, 1.0, 1.0])
+    assert score(risk, smoother, plain).argmin() == 1
+    assert score(risk, smoother, plain, strength=4.0).argmin() == 0
+    assert np.allclose(score(risk, smoother, plain, strength=0.0), risk + choose.UNCERTAINTY)
     # Where all are perfectly smooth, the risk alone decides.
     assert np.allclose(score(risk, 0 * plain, 0 * plain), risk + choose.UNCERTAINTY)
 
