@@ -78,8 +78,13 @@ def find_copied(
     """
     left, bottom, width, height = box
     place = left + int(across * width)
-    heights = list(range(bottom + height - 3, bottom, -int(STEP * session.scale)))
-    found, seen = session.run(SWEEP, left=place, heights=heights, wanted=wanted)
+    step = int(STEP * session.scale)
+    inside = range(bottom + height - 3, bottom, -step)
+    found, seen = session.run(SWEEP, left=place, heights=list(inside), wanted=wanted)
+    if found is None:
+        # Over a bar as dark as the menu its last entry changes nothing that is seen.
+        below = range(max(bottom - 1, 1), max(bottom - 3 * step, 0), -step)
+        found, _ = session.run(SWEEP, left=place, heights=list(below), wanted=wanted)
     if found is None:
         raise BlenderFailed(f"{wanted} is not in the box, which has {', '.join(seen)}.")
     return place, found
