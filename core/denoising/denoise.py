@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-from ..automatic.filter import automatic_filter
+from ..automatic.filter import CLEAN, automatic_filter
 from ..blocks import Blocks, Stopped
 from ..memory import check_memory, give_back
 from ..noise import NoiseEstimate, estimate_noise
@@ -151,7 +151,9 @@ def _denoise(
             found = automatic_filter(
                 noisy, ordered, connectivity, prepared.edge, settings, constraints, blocks, callback
             )
-            solved = found.points, found.iterations, found.is_stopped
+            # Of a mesh that is clean already the lines, which were smoothed before, stay as well.
+            points = prepared.noisy if found.recipe == CLEAN else found.points
+            solved = points, found.iterations, found.is_stopped
             noise, recipe = found.noise, found.recipe
         elif settings.method == "BILATERAL":
             solved = bilateral_filter(noisy, ordered, connectivity, settings, constraints, blocks, callback)

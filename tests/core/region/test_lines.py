@@ -210,3 +210,15 @@ def test_edges_of_a_vertex_with_itself_are_no_lines(rng):
     result = denoise(mesh, settings, region=Region(feature_edges=np.array([[3, 3], [5, 5]])))
     assert_same_bits(result.vertices, denoise(mesh, settings).vertices)
     assert result.report.line_vertices == 0
+
+
+def test_lines_of_a_mesh_that_is_clean_already_stay_too(rng):
+    """Its report says that nothing was done, and so it is, though the lines themselves are rough."""
+    mesh, edges = box(16)
+    at_end = np.isin(mesh.vertices, (0, 16)).sum(axis=1) == 2
+    vertices = mesh.vertices.copy()
+    vertices[at_end] += rng.normal(0, 0.05, (at_end.sum(), 3))
+    mesh = mesh.with_vertices(vertices)
+    result = denoise(mesh, PRESETS["AUTO"].settings, region=Region(feature_edges=edges))
+    assert result.report.recipe == "Clean already"
+    assert_same_bits(result.vertices, mesh.vertices)
