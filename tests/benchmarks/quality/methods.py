@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The methods that are compared: Framelet's presets, and baselines with a grid of settings."""
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping
 from time import perf_counter
 from typing import Any, NamedTuple
@@ -57,7 +58,7 @@ class Preset:
         return Reading(settings, positions, perf_counter() - began)
 
 
-class Baseline:
+class Baseline(ABC):
     """A published method with a default and a grid.
 
     The grid is made of `values` of one setting, the `knob`, from low to high, and of readings for each:
@@ -90,9 +91,9 @@ class Baseline:
         """Return the readings without improvement after which a run on a case is given up."""
         return self.patience
 
+    @abstractmethod
     def readings(self, case: Case, knob: Any, only: Settings | None = None) -> Iterator[Reading]:
         """Yield results for a value of the knob; only those with some settings if these are given."""
-        raise NotImplementedError
 
     def run(self, case: Case, settings: Settings) -> Reading:
         """Denoise a case with some settings."""
