@@ -14,6 +14,11 @@ BLENDER := 4.5
 TIMEOUT ?= 1200
 GUI_TIMEOUT ?= 3600
 
+# Tests run in this many processes at once: auto is one for each core, 0 none but pytest itself.
+# More than eight would need more memory than time: each holds a whole Blender.
+JOBS ?= auto
+PYTEST := -m pytest -n $(JOBS) --maxprocesses 8 --dist worksteal
+
 # Two targets must not make the same environment at once.
 .NOTPARALLEL:
 .DEFAULT_GOAL := help
@@ -45,7 +50,7 @@ format: ## Format the code and fix what ruff can fix
 
 .PHONY: test-core
 test-core: ## Test core/ and the release rules on plain Python and NumPy
-	$(ENVIRONMENT) run core --timeout $(TIMEOUT) -- -m pytest tests/core tests/release tests/benchmarks
+	$(ENVIRONMENT) run core --timeout $(TIMEOUT) -- $(PYTEST) tests/core tests/release tests/benchmarks
 
 # test-4.2, test-4.5, test-5.2
 .PHONY: $(BLENDERS:%=test-%)
@@ -53,7 +58,7 @@ test-4.2: ## Test the operators on Blender 4.2
 test-4.5: ## Test the operators on Blender 4.5
 test-5.2: ## Test the operators on Blender 5.2
 $(BLENDERS:%=test-%): test-%:
-	$(ENVIRONMENT) run bpy-$* --timeout $(TIMEOUT) -- -m pytest tests/blender
+	$(ENVIRONMENT) run bpy-$* --timeout $(TIMEOUT) -- $(PYTEST) tests/blender
 
 .PHONY: $(BLENDERS:%=test-installed-%)
 test-installed-4.2: ## Install the zip on Blender 4.2 and test it
