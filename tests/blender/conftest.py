@@ -5,6 +5,7 @@
 
 import importlib.util
 import os
+import threading
 
 import pytest
 
@@ -38,8 +39,10 @@ def registered():
     It must be unregistered before Python exits: an operator class that is still
     registered then hangs Blender 4.5 and crashes 4.2.
     """
+    import bpy
     import framelet
 
+    bpy.ops.wm.read_factory_settings(use_empty=True)
     framelet.register()
     yield
     framelet.unregister()
@@ -66,7 +69,50 @@ def make_object(empty_scene):
 
 @pytest.fixture(autouse=True)
 def empty_scene(registered):
-    """Start from factory settings and an empty scene."""
+    """Start from an empty scene, with all settings of scene and window at their defaults.
+
+    The preferences stay: no test may leave them changed. To load them too, with all of
+    Blender's own add-ons, would take six times as long, for each of two thousand tests.
+    """
     import bpy
 
-    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+
+
+@pytest.fixture
+def settings(empty_scene):
+    """Give the settings of the scene, with a quick preset."""
+    import bpy
+
+    found = bpy.context.scene.framelet
+    found.preset = "POSITIONS"
+    return found
+
+
+@pytest.fixture
+def no_thread_stays(empty_scene):
+    """Stop the run and the preview at the end, and fail if one of their threads goes on."""
+    from framelet.operators import current_preview, current_run
+    from run_steps import framelet_threads
+
+    yield
+    current_preview.stop_preview()
+    current_run.stop_current()
+    assert framelet_threads() == []
+
+
+@pytest.fixture
+def gate(monkeypatch):
+    """Let the thread of a run wait before the solver until it is opened, or the run is stopped."""
+    from framelet.operators import denoise_run
+
+    opened, original = threading.Event(), denoise_run.compute
+
+    def compute(job, callback=None, should_stop=None):
+        while not opened.wait(0.01):
+            if should_stop():
+                break
+        return original(job, callback, should_stop)
+
+    monkeypatch.setattr(denoise_run, "compute", compute)
+    return opened

@@ -9,33 +9,14 @@ import pytest
 # isort: split
 # This module exists once bpy was imported.
 import bmesh
-from framelet.core import DEFAULT_PRESET, PRESETS, DenoiseSettings, add_noise, denoise
+from blender_objects import noisy_monkey, read, select_only
+from framelet.core import DEFAULT_PRESET, PRESETS, DenoiseSettings, denoise
 from framelet.operators import mesh_bridge
 from framelet.operators.denoise_object import denoise_object
 
 # A quick algorithm, for what all of them have in common.
 QUICK = "POSITIONS"
 QUICK_SETTINGS = PRESETS[QUICK].settings
-
-
-def noisy_monkey(name="Monkey", location=(0, 0, 0)):
-    bpy.ops.mesh.primitive_monkey_add(location=location)
-    obj = bpy.context.object
-    obj.name = name
-    surface = mesh_bridge.read_surface(obj)
-    mesh_bridge.write_vertices(obj, surface, add_noise(surface, 0.2, 1))
-    return obj
-
-
-def read(obj):
-    return mesh_bridge.read_surface(obj).vertices
-
-
-def select_only(*objects):
-    bpy.ops.object.select_all(action="DESELECT")
-    for obj in objects:
-        obj.select_set(True)
-    bpy.context.view_layer.objects.active = objects[0]
 
 
 def select_vertices(obj, is_selected):

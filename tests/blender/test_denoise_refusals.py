@@ -4,28 +4,9 @@
 
 import bpy
 import pytest
-from framelet.core import DEFAULT_PRESET, PRESETS, add_noise, denoise
+from blender_objects import noisy_monkey, read, select_only
+from framelet.core import DEFAULT_PRESET, PRESETS, denoise
 from framelet.operators import mesh_bridge
-
-
-def noisy_monkey(name="Monkey", location=(0, 0, 0)):
-    bpy.ops.mesh.primitive_monkey_add(location=location)
-    obj = bpy.context.object
-    obj.name = name
-    surface = mesh_bridge.read_surface(obj)
-    mesh_bridge.write_vertices(obj, surface, add_noise(surface, 0.2, 1))
-    return obj
-
-
-def read(obj):
-    return mesh_bridge.read_surface(obj).vertices
-
-
-def select_only(*objects):
-    bpy.ops.object.select_all(action="DESELECT")
-    for obj in objects:
-        obj.select_set(True)
-    bpy.context.view_layer.objects.active = objects[0]
 
 
 def last_report():

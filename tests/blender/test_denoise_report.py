@@ -8,30 +8,11 @@ from dataclasses import replace
 import bpy
 import numpy as np
 import pytest
-from framelet.core import PRESETS, add_noise, denoise, estimate_noise
+from blender_objects import noisy_monkey, read, select_only
+from framelet.core import PRESETS, denoise, estimate_noise
 from framelet.operators import mesh_bridge
 from framelet.operators.denoise_job import MeasuredReport
 from framelet.operators.filled_reports import fill_report
-
-
-def noisy_monkey(name="Monkey", location=(0, 0, 0)):
-    bpy.ops.mesh.primitive_monkey_add(location=location)
-    obj = bpy.context.object
-    obj.name = name
-    surface = mesh_bridge.read_surface(obj)
-    mesh_bridge.write_vertices(obj, surface, add_noise(surface, 0.2, 1))
-    return obj
-
-
-def read(obj):
-    return mesh_bridge.read_surface(obj).vertices
-
-
-def select_only(*objects):
-    bpy.ops.object.select_all(action="DESELECT")
-    for obj in objects:
-        obj.select_set(True)
-    bpy.context.view_layer.objects.active = objects[0]
 
 
 def last_report():

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A run on a thread: same bits as without, nothing written unless all is well, and no thread stays."""
 
-import threading
-
 import bpy
 import numpy as np
 import pytest
@@ -11,72 +9,21 @@ import pytest
 # isort: split
 # This module exists once bpy was imported.
 import bmesh
-from framelet.core import PRESETS, add_noise
+from blender_objects import noisy_monkey, read
+from framelet.core import PRESETS
 from framelet.operators import current_run, denoise_job, denoise_run, mesh_bridge, preparations
 from framelet.operators.denoise_object import denoise_object
 from framelet.operators.denoise_run import State, begin_run
 from framelet.operators.run_display import progress_text, status_text
+from run_steps import QUICK, SECONDS, start, until_done
 
-SETTINGS = PRESETS["POSITIONS"].settings
-SECONDS = 60
-
-
-def monkey(name="Monkey", location=(0, 0, 0)):
-    bpy.ops.mesh.primitive_monkey_add(location=location)
-    obj = bpy.context.object
-    obj.name = obj.data.name = name
-    surface = mesh_bridge.read_surface(obj)
-    mesh_bridge.write_vertices(obj, surface, add_noise(surface, 0.2, 1))
-    return obj
-
-
-def read(obj):
-    return mesh_bridge.read_surface(obj).vertices
-
-
-def run_threads():
-    return [thread for thread in threading.enumerate() if thread.name.startswith("framelet")]
-
-
-def start(*objects, settings=SETTINGS, output="IN_PLACE"):
-    run = begin_run(objects, settings, output)
-    current_run.set_current(run)
-    run.start()
-    return run
-
-
-def until_done(run):
-    """Tick as the modal operator does, once the thread has ended."""
-    assert run.wait(SECONDS)
-    return run.tick()
-
-
-@pytest.fixture(autouse=True)
-def no_thread_stays():
-    yield
-    current_run.stop_current()
-    assert run_threads() == []
-
-
-@pytest.fixture
-def gate(monkeypatch):
-    """Let the thread wait before the solver until it is opened, or the run is stopped."""
-    opened, original = threading.Event(), denoise_run.compute
-
-    def compute(job, callback=None, should_stop=None):
-        while not opened.wait(0.01):
-            if should_stop():
-                break
-        return original(job, callback, should_stop)
-
-    monkeypatch.setattr(denoise_run, "compute", compute)
-    return opened
+pytestmark = pytest.mark.usefixtures("no_thread_stays")
 
 
 @pytest.mark.parametrize("preset", ["AUTO", "TRI_1", "TRI_2", "FREE_FORM", "BILATERAL"])
 def test_threads_and_scripts_give_the_same_bits(preset):
     settings = PRESETS[preset].settings
-    first, second = monkey("First"), monkey("Second")
+    first, second = noisy_monkey("First"), noisy_monkey("Second")
     noisy = read(first)
     run = start(first, settings=settings)
     assert until_done(run) is State.READY
@@ -92,7 +39,7 @@ def test_threads_and_scripts_give_the_same_bits(preset):
 
 
 def test_edit_mode_on_a_thread_moves_the_selected_vertices():
-    obj = monkey()
+    obj = noisy_monkey()
     bpy.ops.object.mode_set(mode="EDIT")
     edit_mesh = bmesh.from_edit_mesh(obj.data)
     for vert in edit_mesh.verts:
@@ -108,7 +55,7 @@ def test_edit_mode_on_a_thread_moves_the_selected_vertices():
 
 
 def test_several_objects_are_written_together(gate):
-    objects = [monkey("A"), monkey("B", (3, 0, 0))]
+    objects = [noisy_monkey("A"), noisy_monkey("B", (3, 0, 0))]
     before = [read(obj) for obj in objects]
     run = start(*objects, output="NEW_OBJECT")
     assert run.tick() is State.RUNNING
@@ -125,7 +72,7 @@ def test_several_objects_are_written_together(gate):
 
 @pytest.mark.parametrize("when", ["at once", "computing", "ready"])
 def test_cancel_leaves_all_as_it_was(when, gate):
-    obj = monkey()
+    obj = noisy_monkey()
     before = read(obj)
     run = start(obj)
     if when == "ready":
@@ -144,8 +91,8 @@ def test_cancel_leaves_all_as_it_was(when, gate):
 
 
 def test_cancel_within_the_solver_and_a_new_run_after_it():
-    obj = monkey()
-    slow = SETTINGS.with_changes(iterations=10000)
+    obj = noisy_monkey()
+    slow = QUICK.with_changes(iterations=10000)
     before = read(obj)
     run = start(obj, settings=slow)
     while run.fraction == 0.0:
@@ -156,98 +103,13 @@ def test_cancel_within_the_solver_and_a_new_run_after_it():
     again = start(obj)
     assert until_done(again) is State.READY
     again.finish()
-    expected = monkey("Expected")
-    denoise_object(expected, SETTINGS)
+    expected = noisy_monkey("Expected")
+    denoise_object(expected, QUICK)
     assert read(obj).tobytes() == read(expected).tobytes() != before.tobytes()
 
 
-def change_mode():
-    bpy.ops.object.mode_set(mode="EDIT")
-
-
-def delete():
-    bpy.ops.object.delete()
-
-
-def move_a_vertex():
-    bpy.context.object.data.vertices[5].co.z += 0.25
-
-
-def flip_the_faces():
-    bpy.context.object.data.flip_normals()
-
-
-def replace_the_mesh():
-    bpy.context.object.data = bpy.context.object.data.copy()
-
-
-def add_a_shape_key():
-    bpy.context.object.shape_key_add(name="Basis")
-
-
-def subdivide():
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="SELECT")
-    bpy.ops.mesh.subdivide()
-    bpy.ops.object.mode_set(mode="OBJECT")
-
-
-@pytest.mark.parametrize(
-    ("edit", "sentence"),
-    [
-        (change_mode, "The mode of ‘Monkey’ was changed"),
-        (delete, "‘Monkey’ was deleted"),
-        (move_a_vertex, "The mesh of ‘Monkey’ was edited"),
-        (flip_the_faces, "The mesh of ‘Monkey’ was edited"),
-        (replace_the_mesh, "‘Monkey’ got another mesh"),
-        (add_a_shape_key, "Another shape key of ‘Monkey’ became active"),
-        (subdivide, "The mesh of ‘Monkey’ was edited"),
-    ],
-)
-def test_what_happens_meanwhile_drops_the_run(edit, sentence, gate):
-    obj = monkey()
-    other = monkey("Other", (3, 0, 0))
-    others_before = read(other)
-    bpy.context.view_layer.objects.active = obj
-    obj.select_set(True)
-    other.select_set(False)
-    run = start(obj, other)
-    edit()
-    after_edit = read(obj) if edit is not delete else None
-    gate.set()
-    assert until_done(run) is State.FAILED
-    assert (
-        run.reason
-        == f"{sentence} while Framelet was running, so that the run was dropped; nothing was changed."
-    )
-    if after_edit is not None:
-        assert read(obj).tobytes() == after_edit.tobytes()
-    assert read(other).tobytes() == others_before.tobytes(), "all objects or none"
-    assert current_run.current_run() is None
-
-
-def test_an_edit_is_noticed_before_the_run_is_done(gate):
-    obj = monkey()
-    run = start(obj)
-    assert run.tick() is State.RUNNING
-    move_a_vertex()
-    obj.data.update()
-    bpy.context.view_layer.update()
-    assert run.tick() is State.FAILED and "was edited" in run.reason
-
-
-def test_edits_of_other_meshes_are_not_looked_at(gate, monkeypatch):
-    obj, other = monkey(), monkey("Other")
-    run = start(obj)
-    monkeypatch.setattr(mesh_bridge, "read_surface", lambda _: pytest.fail("it was read in detail"))
-    other.data.vertices[5].co.z += 0.25
-    other.data.update()
-    bpy.context.view_layer.update()
-    assert run.tick() is State.RUNNING
-
-
 def test_an_interrupted_script_leaves_no_run(monkeypatch):
-    obj = monkey()
+    obj = noisy_monkey()
     before = read(obj)
 
     def compute(*_):
@@ -262,45 +124,13 @@ def test_an_interrupted_script_leaves_no_run(monkeypatch):
     assert bpy.ops.object.framelet_denoise(preset="POSITIONS") == {"FINISHED"}
 
 
-def test_renaming_and_moving_the_object_are_no_matter(gate):
-    obj = monkey()
-    run = start(obj)
-    obj.name = "Renamed"
-    obj.location.x += 3
-    monkey("Monkey")
-    gate.set()
-    assert until_done(run) is State.READY
-    assert run.finish()[0].obj == obj
-
-
-def test_undo_drops_the_run(gate):
-    obj = monkey()
-    bpy.ops.ed.undo_push(message="Before")
-    obj.location.x = 1
-    bpy.ops.ed.undo_push(message="Moved")
-    before = read(obj)
-    run = start(obj)
-    bpy.ops.ed.undo()
-    assert run.tick() is State.FAILED
-    assert run.reason.startswith("Undo or redo was used while Framelet was running")
-    assert read(bpy.data.objects["Monkey"]).tobytes() == before.tobytes()
-
-
-def test_opening_a_file_drops_the_run(gate):
-    run = start(monkey())
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    assert run.tick() is State.FAILED
-    assert run.reason.startswith("Another file was opened while Framelet was running")
-    assert len(preparations.preparations()) == 0
-
-
 def test_one_run_at_a_time(gate):
-    obj = monkey()
+    obj = noisy_monkey()
     run = start(obj)
     with pytest.raises(RuntimeError, match="press Esc"):
         bpy.ops.object.framelet_denoise(preset="POSITIONS")
     with pytest.raises(ValueError, match="Framelet is running; press Esc"):
-        current_run.set_current(begin_run([obj], SETTINGS))
+        current_run.set_current(begin_run([obj], QUICK))
     assert bpy.ops.object.framelet_cancel() == {"FINISHED"}
     assert run.tick() is State.CANCELED
     assert not bpy.ops.object.framelet_cancel.poll()
@@ -309,9 +139,9 @@ def test_one_run_at_a_time(gate):
 
 
 def test_objects_that_cannot_be_denoised_do_not_stop_the_others():
-    good = monkey("Good")
+    good = noisy_monkey("Good")
     flat = bpy.data.objects.new("Flat", bpy.data.meshes.new("Flat"))
-    broken = monkey("Broken", (3, 0, 0))
+    broken = noisy_monkey("Broken", (3, 0, 0))
     broken.data.vertices[3].co.x = float("nan")
     run = start(good, flat, broken)
     assert until_done(run) is State.READY
@@ -321,7 +151,7 @@ def test_objects_that_cannot_be_denoised_do_not_stop_the_others():
     run = start(broken)
     assert until_done(run) is State.FAILED and run.reason.startswith("‘Broken’: ")
     with pytest.raises(ValueError, match="has no faces"):
-        begin_run([flat], SETTINGS)
+        begin_run([flat], QUICK)
 
 
 @pytest.mark.parametrize(
@@ -332,7 +162,7 @@ def test_objects_that_cannot_be_denoised_do_not_stop_the_others():
     ],
 )
 def test_errors_become_sentences(error, sentence, monkeypatch, capfd):
-    obj = monkey()
+    obj = noisy_monkey()
     before = read(obj)
 
     def compute(*_):
@@ -349,23 +179,23 @@ def test_errors_become_sentences(error, sentence, monkeypatch, capfd):
 
 
 def test_a_run_that_waits_can_be_canceled():
-    obj = monkey()
+    obj = noisy_monkey()
     with preparations.borrowed_preparations():
         run = start(obj)
         assert not run.wait(0.2), "it waits for what another run works with"
         run.cancel()
         assert run.wait(SECONDS)
-    job = denoise_job.DenoiseJob("X", mesh_bridge.read_surface(obj), SETTINGS, np.eye(3))
+    job = denoise_job.DenoiseJob("X", mesh_bridge.read_surface(obj), QUICK, np.eye(3))
     assert not denoise_job.compute(job).measured.report.is_stopped
 
 
 def test_the_cache_serves_runs_on_threads(monkeypatch):
-    obj = monkey()
+    obj = noisy_monkey()
     preparations.forget_preparations()
     noisy = read(obj)
     for lambda_ in (0.1, 0.2):
         mesh_bridge.write_vertices(obj, mesh_bridge.read_surface(obj), noisy)
-        run = start(obj, settings=SETTINGS.with_changes(lambda_=lambda_))
+        run = start(obj, settings=QUICK.with_changes(lambda_=lambda_))
         assert until_done(run) is State.READY
         run.finish()
         kept = preparations.preparations()._kept
@@ -373,17 +203,3 @@ def test_the_cache_serves_runs_on_threads(monkeypatch):
         if lambda_ == 0.1:
             first = kept[0]
     assert kept[0] is first
-
-
-def test_unregistering_stops_a_run(gate):
-    import framelet
-
-    obj = monkey()
-    before = read(obj)
-    run = start(obj)
-    framelet.unregister()
-    try:
-        assert run.state is State.CANCELED and run_threads() == []
-        assert read(obj).tobytes() == before.tobytes()
-    finally:
-        framelet.register()

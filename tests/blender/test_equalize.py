@@ -10,23 +10,11 @@ import pytest
 # isort: split
 # This module exists once bpy was imported.
 import bmesh
-from framelet.core import SurfaceMesh, add_noise, connect, equalize, make_transform
+from blender_objects import noisy_monkey, read
+from framelet.core import SurfaceMesh, connect, equalize, make_transform
 from framelet.operators import mesh_bridge
 from framelet.operators.band_settings import GAIN_NAMES
 from framelet.operators.equalize import equalize_object
-
-
-def monkey(name="Monkey"):
-    bpy.ops.mesh.primitive_monkey_add()
-    obj = bpy.context.object
-    obj.name = name
-    surface = mesh_bridge.read_surface(obj)
-    mesh_bridge.write_vertices(obj, surface, add_noise(surface, 0.2, 1))
-    return obj
-
-
-def read(obj):
-    return mesh_bridge.read_surface(obj).vertices
 
 
 def add_group(obj, name="Group"):
@@ -41,7 +29,7 @@ def add_group(obj, name="Group"):
 
 @pytest.mark.parametrize("gains", [(0.0,), (0.5, 1.0, 2.0), (1.5, 0.3), (3, 3, 3, 3)])
 def test_operator_equals_core(gains):
-    obj = monkey()
+    obj = noisy_monkey()
     surface = mesh_bridge.read_surface(obj)
     expected = equalize(surface, gains, stencil="MEAN", frame="ADAPTIVE", boundary="FREE")
     values = {f"gain_{level}": gain for level, gain in enumerate(gains, 1)}
@@ -53,14 +41,14 @@ def test_operator_equals_core(gains):
 
 
 def test_gains_of_one_change_no_bit():
-    obj = monkey()
+    obj = noisy_monkey()
     before = read(obj)
     assert bpy.ops.object.framelet_equalize() == {"FINISHED"}
     assert read(obj).tobytes() == before.tobytes()
 
 
 def test_only_gains_of_levels_in_use_count():
-    obj = monkey()
+    obj = noisy_monkey()
     before = read(obj)
     bpy.ops.object.framelet_equalize(levels=2, gain_3=0.0)
     assert read(obj).tobytes() == before.tobytes()
@@ -85,7 +73,7 @@ def test_gain_zero_at_level_one_smooths(make_object, rng):
 @pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
 @pytest.mark.parametrize("invert", [False, True])
 def test_vertex_groups_weigh_the_change(invert, mode):
-    obj = monkey()
+    obj = noisy_monkey()
     add_group(obj, "Other")
     weights = add_group(obj)
     surface = mesh_bridge.read_surface(obj)
@@ -103,7 +91,7 @@ def test_vertex_groups_weigh_the_change(invert, mode):
 
 
 def test_edit_mode_moves_selected_visible_vertices_only():
-    obj = monkey()
+    obj = noisy_monkey()
     surface = mesh_bridge.read_surface(obj)
     bpy.ops.object.mode_set(mode="EDIT")
     edit_mesh = bmesh.from_edit_mesh(obj.data)
@@ -123,7 +111,7 @@ def test_edit_mode_moves_selected_visible_vertices_only():
 
 
 def test_the_active_shape_key_is_equalized():
-    obj = monkey()
+    obj = noisy_monkey()
     basis = obj.shape_key_add(name="Basis")
     smile = obj.shape_key_add(name="Smile")
     obj.active_shape_key_index = 1
@@ -137,7 +125,7 @@ def test_the_active_shape_key_is_equalized():
 
 
 def test_all_selected_meshes_are_equalized(capfd):
-    objects = [monkey("A"), monkey("B"), monkey("C")]
+    objects = [noisy_monkey("A"), noisy_monkey("B"), noisy_monkey("C")]
     before = [read(obj) for obj in objects]
     add_group(objects[0])
     add_group(objects[2])
@@ -152,7 +140,7 @@ def test_all_selected_meshes_are_equalized(capfd):
 
 
 def test_undo_restores():
-    obj = monkey()
+    obj = noisy_monkey()
     before = read(obj)
     bpy.ops.ed.undo_push(message="Before")
     bpy.ops.object.framelet_equalize(gain_1=0.0)
@@ -170,7 +158,7 @@ def refuses(obj, sentence, **values):
 
 
 def test_bad_input_gets_a_sentence_and_the_mesh_stays(make_object):
-    obj = monkey()
+    obj = noisy_monkey()
     refuses(obj, "‘Monkey’ has no vertex group ‘Nothing’; choose one", vertex_group="Nothing")
     small = make_object(meshes.tetrahedron(), "Small")
     refuses(small, "‘Small’: The mesh is too small for 2 levels")
@@ -187,7 +175,7 @@ def test_bad_input_gets_a_sentence_and_the_mesh_stays(make_object):
     ],
 )
 def test_bad_gains_get_a_sentence(gains, sentence):
-    obj = monkey()
+    obj = noisy_monkey()
     before = read(obj)
     with pytest.raises(ValueError, match=f"‘Monkey’: .*{sentence}"):
         equalize_object(obj, gains)
@@ -195,7 +183,7 @@ def test_bad_gains_get_a_sentence(gains, sentence):
 
 
 def test_the_operator_never_writes_what_is_not_a_number():
-    obj = monkey()
+    obj = noisy_monkey()
     try:
         bpy.ops.object.framelet_equalize(gain_1=float("nan"))
     except RuntimeError as error:
@@ -204,7 +192,7 @@ def test_the_operator_never_writes_what_is_not_a_number():
 
 
 def test_nothing_selected_in_edit_mode_gets_a_sentence():
-    monkey()
+    noisy_monkey()
     bpy.ops.object.mode_set(mode="EDIT")
     bpy.ops.mesh.select_all(action="DESELECT")
     with pytest.raises(RuntimeError, match="‘Monkey’ has no selected vertices"):

@@ -5,21 +5,13 @@
 import bpy
 import numpy as np
 import pytest
+from blender_objects import noisy_monkey, select_only
 from framelet.core import PRESETS, add_noise, denoise
 from framelet.operators import mesh_bridge
 from framelet.operators.denoise_object import denoise_object
 
 QUICK = "POSITIONS"
 SETTINGS = PRESETS[QUICK].settings
-
-
-def monkey(name="Monkey", location=(0, 0, 0)):
-    bpy.ops.mesh.primitive_monkey_add(location=location)
-    obj = bpy.context.object
-    obj.name = obj.data.name = name
-    surface = mesh_bridge.read_surface(obj)
-    mesh_bridge.write_vertices(obj, surface, add_noise(surface, 0.2, 1))
-    return obj
 
 
 def run(output, **values):
@@ -43,15 +35,8 @@ def shown(obj):
     return mesh_points(obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).data)
 
 
-def select_only(*objects):
-    bpy.ops.object.select_all(action="DESELECT")
-    for obj in objects:
-        obj.select_set(True)
-    bpy.context.view_layer.objects.active = objects[0]
-
-
 def test_the_default_is_in_place():
-    obj = monkey()
+    obj = noisy_monkey()
     expected = denoise(mesh_bridge.read_surface(obj), SETTINGS).vertices
     bpy.ops.object.framelet_denoise(preset=QUICK)
     assert mesh_points(obj.data).tobytes() == expected.tobytes()
@@ -60,7 +45,7 @@ def test_the_default_is_in_place():
 
 
 def test_a_shape_key_is_a_slider():
-    obj = monkey()
+    obj = noisy_monkey()
     noisy = mesh_bridge.read_surface(obj)
     expected = denoise(noisy, SETTINGS).vertices
     assert run("SHAPE_KEY") == {"FINISHED"}
@@ -77,7 +62,7 @@ def test_a_shape_key_is_a_slider():
 
 
 def test_a_shape_key_is_relative_to_the_key_that_was_denoised(rng):
-    obj = monkey()
+    obj = noisy_monkey()
     obj.shape_key_add(name="Basis")
     smile = obj.shape_key_add(name="Smile", from_mix=False)
     other = obj.shape_key_add(name="Other", from_mix=False)
@@ -101,7 +86,7 @@ def test_a_shape_key_is_relative_to_the_key_that_was_denoised(rng):
 
 
 def test_a_second_shape_key_has_a_name_of_its_own():
-    obj = monkey()
+    obj = noisy_monkey()
     run("SHAPE_KEY")
     run("SHAPE_KEY")
     keys = obj.data.shape_keys.key_blocks
@@ -111,7 +96,7 @@ def test_a_second_shape_key_has_a_name_of_its_own():
 
 
 def test_a_locked_key_is_only_read_for_a_shape_key():
-    obj = monkey()
+    obj = noisy_monkey()
     obj.shape_key_add(name="Basis").lock_shape = True
     with pytest.raises(RuntimeError, match="locked"):
         run("IN_PLACE")
@@ -119,7 +104,7 @@ def test_a_locked_key_is_only_read_for_a_shape_key():
 
 
 def test_a_new_object_leaves_the_original():
-    obj = monkey()
+    obj = noisy_monkey()
     extra = bpy.data.collections.new("Extra")
     bpy.context.scene.collection.children.link(extra)
     extra.objects.link(obj)
@@ -140,7 +125,7 @@ def test_a_new_object_leaves_the_original():
 
 
 def test_a_new_object_has_the_shape_keys_too():
-    obj = monkey()
+    obj = noisy_monkey()
     obj.shape_key_add(name="Basis")
     obj.shape_key_add(name="Wide", from_mix=False)
     obj.active_shape_key_index = 1
@@ -155,7 +140,7 @@ def test_a_new_object_has_the_shape_keys_too():
 
 @pytest.mark.parametrize("output", ["IN_PLACE", "SHAPE_KEY", "NEW_OBJECT"])
 def test_several_objects_and_shared_meshes(output):
-    first, second = monkey("A"), monkey("B", (3, 0, 0))
+    first, second = noisy_monkey("A"), noisy_monkey("B", (3, 0, 0))
     mesh_bridge.write_vertices(second, mesh_bridge.read_surface(second), mesh_points(second.data) * 2)
     twin = bpy.data.objects.new("Twin", first.data)
     bpy.context.collection.objects.link(twin)
@@ -177,7 +162,7 @@ def test_several_objects_and_shared_meshes(output):
 
 
 def test_each_object_has_its_own_noise():
-    quiet, loud = monkey("Quiet"), monkey("Loud", (3, 0, 0))
+    quiet, loud = noisy_monkey("Quiet"), noisy_monkey("Loud", (3, 0, 0))
     surface = mesh_bridge.read_surface(loud)
     mesh_bridge.write_vertices(loud, surface, add_noise(surface, 0.3, 2))
     select_only(quiet, loud)
@@ -188,7 +173,7 @@ def test_each_object_has_its_own_noise():
 
 @pytest.mark.parametrize("output", ["SHAPE_KEY", "NEW_OBJECT"])
 def test_edit_mode_is_refused_where_undo_would_not_reach(output):
-    obj = monkey()
+    obj = noisy_monkey()
     before = mesh_points(obj.data)
     bpy.ops.object.mode_set(mode="EDIT")
     with pytest.raises(RuntimeError, match="in Object Mode only; leave the mode or set Output to In Place"):
@@ -199,7 +184,7 @@ def test_edit_mode_is_refused_where_undo_would_not_reach(output):
 
 
 def test_absolute_shape_keys_are_refused():
-    obj = monkey()
+    obj = noisy_monkey()
     obj.shape_key_add(name="Basis")
     obj.data.shape_keys.use_relative = False
     with pytest.raises(RuntimeError, match="The shape keys of ‘Monkey’ are not relative; turn on Relative"):
@@ -211,7 +196,7 @@ def test_absolute_shape_keys_are_refused():
 def linked(tmp_path):
     """Give an object whose mesh lives in another file."""
     path = str(tmp_path / "library.blend")
-    monkey("Linked")
+    noisy_monkey("Linked")
     bpy.ops.wm.save_as_mainfile(filepath=path)
     bpy.ops.wm.read_factory_settings(use_empty=True)
     with bpy.data.libraries.load(path, link=True) as (_, target):
@@ -239,7 +224,7 @@ def test_a_new_object_can_be_made_of_a_linked_one(linked):
 
 @pytest.mark.parametrize("output", ["SHAPE_KEY", "NEW_OBJECT"])
 def test_undo_takes_the_output_away(output):
-    obj = monkey()
+    obj = noisy_monkey()
     before = mesh_points(obj.data)
     bpy.ops.ed.undo_push(message="Before")
     run(output)
@@ -253,7 +238,7 @@ def test_undo_takes_the_output_away(output):
 
 
 def test_the_function_for_scripts_has_the_output_too():
-    obj = monkey()
+    obj = noisy_monkey()
     denoise_object(obj, SETTINGS, output="SHAPE_KEY")
     assert obj.data.shape_keys.key_blocks["Denoised"].value == 1.0
     report = denoise_object(obj, SETTINGS, lambda *_: True, "NEW_OBJECT")

@@ -11,15 +11,15 @@ import pytest
 # isort: split
 # This module exists once bpy was imported.
 import bmesh
+from blender_objects import edit, read
 from checks import assert_same_bits, lengths
-from framelet.core import PRESETS, Region, SurfaceMesh, denoise
+from framelet.core import PRESETS, Region, denoise
 from framelet.core.region_options import RegionOptions
 from framelet.operators import mesh_bridge
 from framelet.operators.denoise_object import denoise_object
-from framelet.operators.region_bridge import read_region
 from framelet.operators.region_values import REGION_NAMES, shown_region_names, to_region_options
 from meshes import noisy, triangle_torus
-from region_cases import box, exploded
+from region_cases import exploded
 
 QUICK = PRESETS["TRI_2"].settings
 
@@ -27,18 +27,6 @@ QUICK = PRESETS["TRI_2"].settings
 @pytest.fixture
 def torus(make_object, rng):
     return make_object(noisy(triangle_torus(), rng, 0.1))
-
-
-@pytest.fixture
-def cube(make_object, rng):
-    """A noisy cube and its sharp edges, by the numbers of vertices."""
-    mesh, edges = box(6)
-    obj = make_object(noisy(mesh, rng, 0.08))
-    return obj, {tuple(sorted(edge)) for edge in edges.tolist()}
-
-
-def read(obj):
-    return mesh_bridge.read_surface(obj).vertices
 
 
 def run(**given):
@@ -61,15 +49,6 @@ def add_group(obj, weights, name="Part"):
 def set_hidden(obj, hidden):
     for vertex, is_hidden in zip(obj.data.vertices, hidden.tolist(), strict=True):
         vertex.hide = is_hidden
-
-
-def edit(obj, *, select=None):
-    """Go to Edit Mode with some vertices selected, all by default."""
-    bpy.ops.object.mode_set(mode="EDIT")
-    edit_mesh = bmesh.from_edit_mesh(obj.data)
-    for vert in edit_mesh.verts:
-        vert.select = bool(select is None or select[vert.index])
-    bmesh.update_edit_mesh(obj.data)
 
 
 def test_every_option_is_a_property_of_scene_and_operator():
@@ -176,66 +155,6 @@ def test_hidden_vertices_are_left_alone_in_edit_mode(torus, rng):
     run(keep_hidden=False)
     assert_same_bits(read(torus)[hidden], before[hidden])
     assert (read(torus)[~hidden] != before[~hidden]).any(axis=1).mean() > 0.9
-
-
-def mark(obj, edges, how):
-    """Mark edges in Object Mode, by Blender's own attributes."""
-    mesh = obj.data
-    chosen = [tuple(sorted(edge.vertices)) in edges for edge in mesh.edges]
-    if how == "sharp":
-        mesh.attributes.new("sharp_edge", "BOOLEAN", "EDGE").data.foreach_set("value", chosen)
-    elif how == "crease":
-        values = [0.3 if is_chosen else 0.0 for is_chosen in chosen]
-        mesh.attributes.new("crease_edge", "FLOAT", "EDGE").data.foreach_set("value", values)
-    else:
-        for edge, is_chosen in zip(mesh.edges, chosen, strict=True):
-            edge.use_seam = is_chosen
-
-
-@pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
-@pytest.mark.parametrize("how", ["sharp", "crease", "seam"])
-def test_sharp_and_creased_edges_are_lines_and_seams_are_not(how, mode, cube):
-    obj, edges = cube
-    mark(obj, edges, how)
-    if mode == "EDIT":
-        edit(obj)
-    found = read_region(obj, RegionOptions(keep_sharp=True)).region.feature_edges
-    assert {tuple(sorted(edge)) for edge in found.tolist()} == (set() if how == "seam" else edges)
-    assert read_region(obj, RegionOptions()).region.feature_edges is None
-
-
-def test_edges_marked_in_edit_mode(cube):
-    obj, edges = cube
-    edit(obj)
-    edit_mesh = bmesh.from_edit_mesh(obj.data)
-    layer = edit_mesh.edges.layers.float.new("crease_edge")
-    expected = set()
-    for number, edge in enumerate(edit_mesh.edges):
-        ends = tuple(sorted(vert.index for vert in edge.verts))
-        if ends in edges:
-            expected.add(ends)
-            if number % 2:
-                edge.smooth = False
-            else:
-                edge[layer] = 1.0
-    bmesh.update_edit_mesh(obj.data)
-    found = read_region(obj, RegionOptions(keep_sharp=True)).region.feature_edges
-    assert {tuple(sorted(edge)) for edge in found.tolist()} == expected == edges
-    bpy.ops.object.mode_set(mode="OBJECT")
-    found = read_region(obj, RegionOptions(keep_sharp=True)).region.feature_edges
-    assert {tuple(sorted(edge)) for edge in found.tolist()} == edges
-
-
-def test_sharp_edges_stay_sharp(cube):
-    obj, edges = cube
-    mark(obj, edges, "sharp")
-    surface = mesh_bridge.read_surface(obj)
-    region = Region(feature_edges=np.array(sorted(edges)))
-    expected = denoise(surface, QUICK, region=region)
-    run(keep_sharp=True)
-    assert lengths(read(obj) - expected.vertices).max() < 1e-6
-    report = bpy.context.window_manager.framelet_report
-    assert report.line_vertices == expected.report.line_vertices == len(set().union(*edges))
 
 
 @pytest.mark.parametrize("scale", [(1, 1, 1), (2, 0.5, 4), (-3, -3, -3)])
@@ -347,13 +266,3 @@ def test_shape_keys_and_regions_go_together(torus):
     key.points.foreach_get("co", after.reshape(-1))
     assert_same_bits(after[90:], before[90:])
     assert (after[:90] != before[:90]).any(axis=1).mean() > 0.9
-
-
-def test_nothing_of_a_mesh_is_read_twice_or_left_behind(cube):
-    obj, edges = cube
-    mark(obj, edges, "sharp")
-    edit(obj)
-    names = {mesh.name for mesh in bpy.data.meshes}
-    found = read_region(obj, RegionOptions(keep_sharp=True))
-    assert isinstance(found.surface, SurfaceMesh)
-    assert {mesh.name for mesh in bpy.data.meshes} == names
