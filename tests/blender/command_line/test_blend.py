@@ -113,8 +113,8 @@ def test_mesh_file_to_blend(command, grid, write_ply, read_ply, tmp_path):
 
     bpy.ops.wm.read_factory_settings(use_empty=False)
     source = write_ply(tmp_path / "bust.ply", grid.vertices, grid.faces)
-    assert command("denoise", source, tmp_path / "out.ply").code == 0
-    assert command("denoise", source, tmp_path / "out.blend").code == 0
+    assert command("denoise", source, tmp_path / "out.ply", "--preset", "positions").code == 0
+    assert command("denoise", source, tmp_path / "out.blend", "--preset", "positions").code == 0
     open_file(tmp_path / "out.blend")
     assert bpy.context.scene.objects.keys() == ["bust"]
     assert bpy.data.meshes.keys() == ["bust"]
@@ -131,7 +131,7 @@ def test_active_shape_key_is_exported(command, grid, read_ply, tmp_path):
     key.points.foreach_set("co", (grid.vertices + np.float32([0, 0, 5])).ravel())
     obj.active_shape_key_index = 1
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "in.blend"))
-    assert command("denoise", tmp_path / "in.blend", tmp_path / "out.ply").code == 0
+    assert command("denoise", tmp_path / "in.blend", tmp_path / "out.ply", "--preset", "positions").code == 0
     result = read_ply(tmp_path / "out.ply").vertices
     assert abs(np.median(result[:, 2]) - 5) < 0.2
 

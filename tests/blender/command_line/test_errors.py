@@ -13,6 +13,9 @@ HEADER = (
     "element face {}\nproperty list uchar int vertex_indices\nend_header\n"
 )
 
+# For runs that are to reach their end.
+QUICK = ("--preset", "positions")
+
 
 @pytest.fixture
 def source(grid, write_ply, tmp_path):
@@ -114,7 +117,7 @@ def test_failing_exporter_leaves_no_trace(fails, source, unchanged, tmp_path, mo
         monkeypatch.setattr(exporting, name, fail)
     (tmp_path / f"out{suffix}").write_text("precious")
     unchanged()
-    assert "disk is full" in fails("denoise", source, tmp_path / f"out{suffix}")
+    assert "disk is full" in fails("denoise", source, tmp_path / f"out{suffix}", *QUICK)
 
 
 def test_nothing_written_by_the_exporter(fails, source, unchanged, tmp_path, monkeypatch):
@@ -122,7 +125,7 @@ def test_nothing_written_by_the_exporter(fails, source, unchanged, tmp_path, mon
 
     monkeypatch.setattr(exporting, "_call", lambda *arguments, **options: None)
     unchanged()
-    assert "could not be written" in fails("denoise", source, tmp_path / "out.ply")
+    assert "could not be written" in fails("denoise", source, tmp_path / "out.ply", *QUICK)
 
 
 def test_failing_report_leaves_no_mesh(fails, source, unchanged, tmp_path, monkeypatch):
@@ -134,7 +137,7 @@ def test_failing_report_leaves_no_mesh(fails, source, unchanged, tmp_path, monke
 
     monkeypatch.setattr(report_file, "write_report", fail)
     unchanged()
-    fails("denoise", source, tmp_path / "out.ply", "--report", tmp_path / "r.json")
+    fails("denoise", source, tmp_path / "out.ply", "--report", tmp_path / "r.json", *QUICK)
 
 
 def test_interrupt(command, source, unchanged, tmp_path, monkeypatch):
@@ -145,7 +148,7 @@ def test_interrupt(command, source, unchanged, tmp_path, monkeypatch):
 
     monkeypatch.setattr(denoise_object, "denoise_object", interrupt)
     unchanged()
-    result = command("denoise", source, tmp_path / "out.ply")
+    result = command("denoise", source, tmp_path / "out.ply", *QUICK)
     assert result.code == 130
     assert result.err == "framelet: Interrupted; nothing was written.\n"
 
@@ -153,14 +156,14 @@ def test_interrupt(command, source, unchanged, tmp_path, monkeypatch):
 def test_left_out_faces_are_told(command, tmp_path, read_ply):
     source = tmp_path / "in.obj"
     source.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0.1\nf 1 2 3\nf 2 4 3\nf 1 2 30\n")
-    result = command("denoise", source, tmp_path / "out.ply")
+    result = command("denoise", source, tmp_path / "out.ply", *QUICK)
     assert result.code == 0
     assert "warning: Blender left out parts of in.obj: Invalid vertex index" in result.err
     assert len(read_ply(tmp_path / "out.ply").faces) == 2
 
 
 def test_quiet(command, source, tmp_path):
-    result = command("denoise", source, tmp_path / "out.ply", "--quiet")
+    result = command("denoise", source, tmp_path / "out.ply", "--quiet", *QUICK)
     assert (result.code, result.out, result.err) == (0, "", "")
 
 
@@ -171,7 +174,7 @@ def test_the_session_is_as_it_was(command, source, write_obj, grid, tmp_path):
     names = sorted(data.name_full for data in bpy.data.user_map())
     cube = np.array([vertex.co for vertex in bpy.data.objects["Cube"].data.vertices])
     other = write_obj(tmp_path / "cube.obj", grid.vertices, grid.faces, before="o Cube")
-    assert command("denoise", other, tmp_path / "out.obj").code == 0
+    assert command("denoise", other, tmp_path / "out.obj", *QUICK).code == 0
     assert command("denoise", tmp_path / "none.ply", tmp_path / "out.obj").code == 1
     assert "o Cube\n" in (tmp_path / "out.obj").read_text()
     assert sorted(data.name_full for data in bpy.data.user_map()) == names

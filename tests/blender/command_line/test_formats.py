@@ -74,7 +74,7 @@ def test_formats_agree_to_the_last_bit(command, grid, write_ply, write_obj, read
     for source in ("in.ply", "in.obj"):
         for suffix, read in ((".ply", read_ply), (".obj", read_obj)):
             target = tmp_path / f"{source[-3:]}{suffix}"
-            assert command("denoise", tmp_path / source, target).code == 0
+            assert command("denoise", tmp_path / source, target, *POSITIONS).code == 0
             results.append(read(target).vertices)
     for other in results[1:]:
         np.testing.assert_array_equal(other, results[0])
@@ -99,7 +99,7 @@ def test_several_objects_keep_names_and_order(command, grid, write_obj, read_obj
         for line in second.splitlines()
     ]
     source.write_text(source.read_text() + "\n".join(shifted) + "\n")
-    result = command("denoise", source, tmp_path / "out.obj")
+    result = command("denoise", source, tmp_path / "out.obj", *POSITIONS)
     assert result.code == 0 and "in 2 objects" in result.out
     result = read_obj(tmp_path / "out.obj")
     assert [line for line in result.others if line[0] == "o"] == ["o Zebra", "o Ape"]
@@ -111,7 +111,7 @@ def test_objects_that_share_vertices_are_one_surface(command, grid, write_obj, r
     source = write_obj(tmp_path / "in.obj", grid.vertices, grid.faces[:10], before="o Zebra")
     faces = ["f " + " ".join(str(v + 1) for v in face) for face in grid.faces[10:]]
     source.write_text("\n".join([source.read_text(), "o Ape", *faces]) + "\n")
-    assert command("denoise", source, tmp_path / "out.obj").code == 0
+    assert command("denoise", source, tmp_path / "out.obj", *POSITIONS).code == 0
     result = read_obj(tmp_path / "out.obj")
     assert len(result.vertices) == len(grid.vertices)
     assert same_faces(grid.faces, result.faces)
@@ -121,7 +121,7 @@ def test_unused_vertices_of_an_obj_keep_their_numbers(command, grid, write_obj, 
     vertices = np.concatenate([[[-9, -9, 0]], grid.vertices, [[7, 8, 9], [1, 2, 3]]]).astype(np.float32)
     faces = [tuple(v + 1 for v in face) for face in grid.faces]
     source = write_obj(tmp_path / "in.obj", vertices, faces)
-    result = command("denoise", source, tmp_path / "out.obj")
+    result = command("denoise", source, tmp_path / "out.obj", *POSITIONS)
     assert (result.code, result.err) == (0, "")
     assert "4 loose" in result.out
     result = read_obj(tmp_path / "out.obj")
@@ -144,7 +144,7 @@ def test_materials_and_textures(command, grid, write_obj, read_obj, tmp_path):
     before = "mtllib in.mtl\no Cube\nusemtl Material"
     source = write_obj(tmp_path / "in.obj", grid.vertices, grid.faces, grid.uvs)
     source.write_text(before + "\n" + source.read_text())
-    result = command("denoise", source, tmp_path / "out.obj")
+    result = command("denoise", source, tmp_path / "out.obj", *POSITIONS)
     assert (result.code, result.err) == (0, "")
     others = read_obj(tmp_path / "out.obj").others
     assert "mtllib out.mtl" in others and "usemtl Material" in others
@@ -163,7 +163,7 @@ def test_groups_and_colors_of_an_obj(command, grid, write_obj, read_obj, tmp_pat
     lines.insert(first_face, "g left")
     lines.insert(first_face + 12, "g right")
     source.write_text("\n".join(lines) + "\n")
-    assert command("denoise", source, tmp_path / "out.obj").code == 0
+    assert command("denoise", source, tmp_path / "out.obj", *POSITIONS).code == 0
     result = read_obj(tmp_path / "out.obj")
     np.testing.assert_allclose(result.colors, colors, atol=2e-4)
     assert {"g left", "g right"} <= set(result.others)
@@ -176,7 +176,7 @@ def test_normals_are_those_of_the_result(command, grid, write_obj, read_obj, tmp
         word, *rest = line.split()
         lines.append(" ".join([word, *(f"{v}//1" for v in rest)]) if word == "f" else line)
     source.write_text("\n".join(lines) + "\n")
-    assert command("denoise", source, tmp_path / "out.obj").code == 0
+    assert command("denoise", source, tmp_path / "out.obj", *POSITIONS).code == 0
     normals = [line.split()[1:] for line in read_obj(tmp_path / "out.obj").others if line.startswith("vn")]
     assert normals
     assert np.abs(np.array(normals, float)[:, 2]).min() > 0.5
@@ -188,7 +188,7 @@ def test_seams_are_told(command, grid, write_obj, read_ply, tmp_path):
     _f, first_corner, *corners = last.split()
     other_uv = f"{first_corner.split('/')[0]}/{len(grid.uvs) + 1}"
     source.write_text("\n".join([*others, "vt 5 5", " ".join(["f", other_uv, *corners])]) + "\n")
-    result = command("denoise", source, tmp_path / "out.ply")
+    result = command("denoise", source, tmp_path / "out.ply", *POSITIONS)
     assert result.code == 0
     assert "seams" in result.err and "warning" in result.err
     assert len(read_ply(tmp_path / "out.ply").vertices) == len(grid.vertices)
@@ -196,6 +196,6 @@ def test_seams_are_told(command, grid, write_obj, read_ply, tmp_path):
 
 def test_upper_case_suffix_and_in_place(command, grid, write_ply, read_ply, tmp_path):
     source = write_ply(tmp_path / "In File.PLY", grid.vertices, grid.faces)
-    assert command("denoise", source, source).code == 0
+    assert command("denoise", source, source, *POSITIONS).code == 0
     assert len(read_ply(source).vertices) == len(grid.vertices)
     assert [path.name for path in tmp_path.iterdir()] == ["In File.PLY"]

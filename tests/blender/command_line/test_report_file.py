@@ -73,7 +73,9 @@ def test_skipped_objects(command, grid, write_obj, tmp_path):
     n = len(grid.used_vertices)
     source = write_obj(tmp_path / "in.obj", grid.used_vertices, grid.faces_of_used, before="o Good")
     source.write_text(source.read_text() + f"o Bad\nv 0 0 90\nv 1 0 90\nl {n + 1} {n + 2}\n")
-    result = command("denoise", source, tmp_path / "out.obj", "--report", tmp_path / "report.json")
+    result = command(
+        "denoise", source, tmp_path / "out.obj", "--report", tmp_path / "report.json", "--preset", "positions"
+    )
     assert result.code == 0
     assert "warning: ‘Bad’ has no faces" in result.err
     report = json.loads((tmp_path / "report.json").read_text(encoding="utf-8"))
