@@ -15,7 +15,7 @@ TIMEOUT ?= 1200
 GUI_TIMEOUT ?= 3600
 
 # Tests run in this many processes at once: auto is one for each core, 0 none but pytest itself.
-# More than eight would need more memory than time: each holds a whole Blender.
+# Never more than eight, as each holds a whole Blender in memory.
 JOBS ?= auto
 PYTEST := -m pytest -n $(JOBS) --maxprocesses 8 --dist worksteal
 
