@@ -13,7 +13,7 @@ import os
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from types import TracebackType
-from typing import TypeVar
+from typing import Any, TypeVar
 
 Result = TypeVar("Result")
 
@@ -108,6 +108,10 @@ class Blocks:
             self.check()
             results.append(next(found))
         return results
+
+    def together(self, *tasks: Callable[[], Any]) -> list[Any]:
+        """Call functions at the same time, as far as there are threads, and return what they return."""
+        return self.sized(1).run(lambda start, _: tasks[start](), len(tasks))
 
 
 def available_cores() -> int:

@@ -165,11 +165,21 @@ def _denoise(
             assert prepared.transform is not None
             solved = split_bregman(noisy, prepared.transform, settings, constraints, blocks, callback)
         points, iterations, is_stopped = solved
-        motion = points.astype(np.float64)
-        motion -= prepared.noisy
-        motion *= prepared.edge
+        motion = _motion(points, prepared, blocks)
         carrier = placed.carrier(connectivity, prepared.edge)
-        finished = finish(motion, carrier, region, placed.movable, placed.weights, constraints.pinned, blocks)
+        # What is known of the faces is known of a mesh that moves as it is.
+        faces = prepared.faces if placed.weld is None else []
+        finished = finish(
+            motion,
+            carrier,
+            region,
+            placed.movable,
+            placed.weights,
+            constraints.pinned,
+            blocks,
+            faces[0] if faces else None,
+        )
+        faces[:] = [finished.watch.before]
         vertices = placed.in_given_order(finished.vertices)
         report = _report(
             placed.original,
@@ -186,6 +196,20 @@ def _denoise(
             welded_vertices=0 if placed.weld is None else placed.weld.n_merged,
         )
     return DenoiseResult(vertices, report)
+
+
+def _motion(points: NDArray[np.floating], prepared: Prepared, blocks: Blocks) -> NDArray[np.float64]:
+    """Return the displacements, shape (3, N), in scene units, to points of normalized space."""
+    motion = np.empty(points.shape)
+
+    def kernel(start: int, stop: int) -> None:
+        part = motion[:, start:stop]
+        part[:] = points[:, start:stop]
+        part -= prepared.noisy[:, start:stop]
+        part *= prepared.edge
+
+    blocks.run(kernel, points.shape[1])
+    return motion
 
 
 def _line_strength(settings: DenoiseSettings) -> float:
@@ -229,8 +253,8 @@ def _report(
 
     n_moved, squares, largest = zip(*blocks.run(measure, surface.n_vertices), strict=True)
     volume_change = None
-    if connectivity.is_closed and watch.volume_before:
-        volume_change = (watch.volume - watch.volume_before) / watch.volume_before
+    if connectivity.is_closed and watch.before.volume:
+        volume_change = (watch.volume - watch.before.volume) / watch.before.volume
     return DenoiseReport(
         n_vertices=surface.n_vertices,
         n_faces=surface.n_faces,
@@ -240,9 +264,9 @@ def _report(
         displacement_max=float(np.sqrt(max(largest))),
         flipped_faces=watch.n_turned,
         folded_faces=int(watch.is_folded.sum()),
-        folded_faces_before=int(watch.was_folded.sum()),
+        folded_faces_before=int(watch.before.is_folded.sum()),
         degenerate_faces=int(watch.is_degenerate.sum()),
-        degenerate_faces_before=int(watch.was_degenerate.sum()),
+        degenerate_faces_before=int(watch.before.is_degenerate.sum()),
         damped_vertices=finished.n_damped,
         volume_change=volume_change,
         irregular_vertices=int(connectivity.is_irregular().sum()),

@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import fields, is_dataclass
 from typing import Any
 
 import numpy as np
@@ -82,9 +81,6 @@ def _measure(item: Any, sizes: dict[int, int], seen: set[int]) -> None:
     elif isinstance(item, (list, tuple)):
         for part in item:
             _measure(part, sizes, seen)
-    elif is_dataclass(item):
-        for field in fields(item):
-            _measure(getattr(item, field.name), sizes, seen)
     elif type(item).__module__.startswith(__name__.partition(".denoising")[0]):
         for part in vars(item).values() if hasattr(item, "__dict__") else ():
             _measure(part, sizes, seen)

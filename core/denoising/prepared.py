@@ -8,13 +8,14 @@ It depends on the mesh and on the settings that choose the stencils, not on λ, 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from typing import Any
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from ..blocks import Blocks
+from ..region.face_watch import FaceState
 from ..settings import DEFAULT_PRESET, PRESETS, DenoiseSettings
 from ..surface.checks import check_positions, check_surface
 from ..surface.connectivity import Connectivity, connect
@@ -52,6 +53,8 @@ class Prepared:
         The frame, if the method uses one.
     blocks : Blocks
         Threads to work on, to be entered by each run.
+    faces : list of FaceState
+        What the first run that was finished on it found out about the faces of `ordered`; empty before.
     """
 
     surface: SurfaceMesh
@@ -63,6 +66,7 @@ class Prepared:
     transform: FrameTransform | None
     blocks: Blocks
     key: tuple[Any, ...]
+    faces: list[FaceState] = field(default_factory=list)
 
     @property
     def ordered(self) -> SurfaceMesh:
@@ -135,10 +139,10 @@ def prepare(
         if connectivity is None and is_scattered(surface):
             reordering = reorder(surface, spatial_order(surface.vertices), blocks)
         ordered = surface if reordering is None else reordering.surface
-        edge = check_surface(ordered, blocks)
         if connectivity is None:
             labels = None if reordering is None else reordering.vertex_order
             connectivity = connect(ordered, blocks, labels)
+        edge = check_surface(ordered, blocks, connectivity.edge_face_count)
         normalized = normalize(ordered, connectivity, edge, blocks)
         transform = None
         if settings.method == "POSITIONS":

@@ -7,6 +7,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..surface.connectivity import Connectivity
 from ..surface.surface_mesh import SurfaceMesh
 
 
@@ -31,6 +32,20 @@ def faces_at(surface: SurfaceMesh, is_wanted: NDArray[np.bool_]) -> NDArray[np.i
     corner = np.flatnonzero(is_wanted[surface.corner_vertex])
     face = face_of(surface, corner)
     return face[np.diff(face, prepend=-1) > 0]
+
+
+def corners_around(
+    surface: SurfaceMesh, connectivity: Connectivity, vertices: NDArray[np.intp]
+) -> NDArray[np.intp]:
+    """Return the corners at some vertices, ascending; no vertex is given twice."""
+    if connectivity.is_non_manifold[vertices].any():
+        is_wanted = np.zeros(surface.n_vertices, bool)
+        is_wanted[vertices] = True
+        return np.flatnonzero(is_wanted[surface.corner_vertex])
+    begin, counts = connectivity.ring_offset[vertices], connectivity.valence[vertices]
+    place = np.arange(counts.sum()) + np.repeat(begin - (np.cumsum(counts) - counts), counts)
+    corner = connectivity.ring_corner[place]
+    return np.sort(corner[corner >= 0]).astype(np.intp)
 
 
 def some_faces(surface: SurfaceMesh, faces: NDArray[np.integer]) -> SurfaceMesh:

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from ..blocks import Blocks
 from .carrier import Carrier
-from .face_watch import FaceWatch
+from .face_watch import FaceState, FaceWatch
 from .folds import take_back
 from .motion import Motion
 from .region import Region
@@ -42,6 +42,7 @@ def finish(
     weights: NDArray[np.float64] | None,
     pinned: NDArray[np.intp],
     blocks: Blocks,
+    before: FaceState | None = None,
 ) -> Finished:
     """Bring displacements within the limits of a region, and mend what they do.
 
@@ -61,13 +62,15 @@ def finish(
         Vertices of it that take no part in the offset for the volume.
     blocks : Blocks
         Threads to work on.
+    before : FaceState, optional
+        The faces of the input, if they are known already, see `FaceWatch`.
 
     Returns
     -------
     Finished
     """
     motion = Motion(found, carrier, region, movable, weights, pinned)
-    watch = FaceWatch(carrier, blocks)
+    watch = FaceWatch(carrier, blocks, before)
     shares = np.ones(found.shape[1])
     vertices = _settled(motion.at(), shares, watch, region, blocks)
     if not (region.keep_volume and carrier.connectivity.is_closed):
@@ -79,10 +82,10 @@ def finish(
 
     offset = 0.0
     for _ in range(VOLUME_ROUNDS):
-        offset = volume_offset(volume_at, watch.volume_before, area, offset)
-        before = shares.copy()
+        offset = volume_offset(volume_at, watch.before.volume, area, offset)
+        old_shares = shares.copy()
         vertices = _settled(motion.at(offset), shares, watch, region, blocks)
-        if np.array_equal(before, shares):
+        if np.array_equal(old_shares, shares):
             break
     return Finished(vertices, watch, _n_damped(motion.at(offset), shares))
 

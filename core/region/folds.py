@@ -50,7 +50,8 @@ def take_back(
     """
     carrier = watch.carrier
     topology = carrier.topology
-    vertices = carrier.moved(displacement * shares, blocks)
+    is_whole = bool((shares == 1.0).all())
+    vertices = carrier.moved(displacement if is_whole else displacement * shares, blocks)
     watch.look(vertices)
     least = 0.5**HALVINGS
     for round_ in range(LAST_ROUND):

@@ -91,7 +91,7 @@ def fill_straight(
     for value in (4, 3):
         group = wanted[is_completable & (valence == value)]
         if len(group):
-            completed = complete_rings(builder, vertices, members.near_rows(group, value), 6)
+            completed = complete_rings(builder, vertices, members.near_rows(group, value), 6, blocks)
             for place, points in zip(places, completed, strict=True):
                 builder.set(place, group, points)
     return wanted[~is_pairable & ~is_completable]
@@ -203,7 +203,11 @@ def _pair_ranks(
 
 
 def complete_rings(
-    builder: StencilBuilder, vertices: NDArray[np.floating], rings: NDArray[np.int32], size: int
+    builder: StencilBuilder,
+    vertices: NDArray[np.floating],
+    rings: NDArray[np.int32],
+    size: int,
+    blocks: Blocks | None = None,
 ) -> list[NDArray[np.int32]]:
     """Insert midpoints of the longest ring edges until rings have the wanted size.
 
@@ -217,6 +221,8 @@ def complete_rings(
         Closed rings of vertices.
     size : int
         Wanted number of points, at least K and at most 2 K.
+    blocks : Blocks, optional
+        Threads to work on.
 
     Returns
     -------
@@ -224,20 +230,55 @@ def complete_rings(
         The points in ring order.
     """
     valence, n = rings.shape
-    corners = vertices[rings].astype(np.float64)
-    lengths = np.linalg.norm(np.roll(corners, -1, axis=0) - corners, axis=2)
-    longest = lengths.max(axis=0)
-    lengths = np.rint(lengths / np.where(longest > 0, longest, 1.0) / TIE)
-    chosen = np.sort(np.argsort(-lengths, axis=0, kind="stable")[: size - valence], axis=0)
+    parts = (blocks or Blocks(1)).run(
+        lambda start, stop: longest_edges(vertices, rings[:, start:stop], size - valence), n
+    )
+    chosen = np.concatenate(parts) if parts else np.zeros(0, np.int32)
     completed = np.empty((size, n), np.int32)
     for edges in combinations(range(valence), size - valence):
-        columns = np.flatnonzero((chosen == np.array(edges)[:, None]).all(axis=0))
+        columns = np.flatnonzero(chosen == sum(1 << edge for edge in edges))
+        own = rings.take(columns, axis=1)
         row = 0
         for place in range(valence):
-            completed[row, columns] = rings[place, columns]
+            completed[row, columns] = own[place]
             row += 1
             if place in edges:
-                ends = rings[[place, (place + 1) % valence]][:, columns]
+                ends = own[[place, (place + 1) % valence]]
                 completed[row, columns] = builder.add_combined(ends, (0.5, 0.5))
                 row += 1
     return list(completed)
+
+
+def longest_edges(
+    vertices: NDArray[np.floating], rings: NDArray[np.int32], n_edges: int
+) -> NDArray[np.int32]:
+    """Return the longest edges of rings, the first of equals, as a number with a bit for each, shape (n,).
+
+    Parameters
+    ----------
+    vertices : ndarray, shape (N, 3)
+        Positions.
+    rings : ndarray, shape (K, n), int32
+        Closed rings; edge k runs from point k to the next one.
+    n_edges : int
+        How many to choose.
+    """
+    valence = len(rings)
+    corners = vertices.take(rings, axis=0, mode="clip").transpose(2, 0, 1).astype(np.float64, order="C")
+    steps = np.roll(corners, -1, axis=1)
+    steps -= corners
+    steps *= steps
+    lengths = np.sqrt(steps.sum(axis=0))
+    longest = lengths.max(axis=0)
+    lengths /= np.where(longest > 0, longest, 1.0)
+    lengths /= TIE
+    np.rint(lengths, out=lengths)
+    chosen = np.zeros(rings.shape[1], np.int32)
+    for edge in range(valence):
+        rank = np.zeros(len(chosen), np.int8)
+        for other in range(valence):
+            if other != edge:
+                is_before = np.greater_equal if other < edge else np.greater
+                rank += is_before(lengths[other], lengths[edge])
+        chosen |= np.where(rank < n_edges, np.int32(1 << edge), np.int32(0))
+    return chosen

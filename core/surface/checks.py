@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..blocks import Blocks
 from .geometry import mean_edge_length
@@ -29,10 +30,12 @@ def check_positions(surface: SurfaceMesh) -> None:
         raise ValueError(f"Vertex {wrong[0]} at ({position}) {count}; delete or move it first.")
 
 
-def check_surface(surface: SurfaceMesh, blocks: Blocks | None = None) -> float:
+def check_surface(
+    surface: SurfaceMesh, blocks: Blocks | None = None, edge_face_count: NDArray[np.integer] | None = None
+) -> float:
     """Check that a mesh can be worked on, and return its mean edge length in scene units.
 
-    `blocks` are threads to work on.
+    `blocks` are threads to work on; `edge_face_count` (E,) are the faces at each edge, if they are known.
 
     Raises
     ------
@@ -41,7 +44,7 @@ def check_surface(surface: SurfaceMesh, blocks: Blocks | None = None) -> float:
     """
     check_positions(surface)
     with np.errstate(over="ignore"):  # said in a sentence below
-        edge = mean_edge_length(surface, blocks)
+        edge = mean_edge_length(surface, blocks, edge_face_count)
     if not edge > 0.0:
         raise ValueError("All faces have shrunk to points; the mesh has no size to measure noise by.")
     if not np.isfinite(edge):

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
-from .half_edges import find_half_edges
+from .half_edges import find_half_edges, last_corners
 from .ring_filling import Rings, fill_rings
 from .surface_mesh import SurfaceMesh
 
@@ -79,10 +79,10 @@ class Connectivity:
     @property
     def is_closed(self) -> bool:
         """True if the surface is oriented, manifold and without a border, so that it encloses a volume."""
-        used = self.edge_face_count > 0
-        if not used.any() or not self.is_oriented or self.is_non_manifold.any():
+        if not self.is_oriented or self.is_non_manifold.any():
             return False
-        return bool((self.edge_face_count[used] == 2).all())
+        n_pairs = np.count_nonzero(self.edge_face_count == 2)
+        return bool(0 < n_pairs == np.count_nonzero(self.edge_face_count))
 
     def is_regular_triangle(self) -> NDArray[np.bool_]:
         """Return which vertices have a closed fan of six triangles, shape (N,), bool."""
@@ -134,7 +134,9 @@ def connect(
     corner_vertex = surface.corner_vertex
     count = half_edges.edge_face_count
     edges = surface.edges
-    n_corners = np.bincount(corner_vertex, minlength=n_vertices)
+    n_corners, some_corner = blocks.together(
+        lambda: _counted(corner_vertex, n_vertices), lambda: last_corners(corner_vertex, n_vertices)
+    )
     is_loop = edges[:, 0] == edges[:, 1]
     valence = _valences(edges, count, is_loop, n_corners)
 
@@ -150,14 +152,19 @@ def connect(
         np.full(ring_offset[-1], -1, np.int32),
         np.full((n_vertices, 2), -1, np.int32),
     )
-    fill_rings(rings, surface, half_edges, n_corners, broken, is_twisted, labels, blocks)
+    fill_rings(rings, surface, half_edges, n_corners, some_corner, broken, is_twisted, labels, blocks)
     if broken.any():
         _fill_unordered(edges[(count > 0) & ~is_loop], broken, rings, labels)
 
     size = surface.common_face_size()
     has_face = n_corners > 0
     if size:
-        face_across = half_edges.partner // np.int32(size)  # the floor of -1 is -1
+        face_across = half_edges.partner  # which nothing needs any more
+
+        def divide(start: int, stop: int) -> None:
+            face_across[start:stop] //= np.int32(size)  # the floor of -1 is -1
+
+        blocks.run(divide, surface.n_corners)
         all_triangles, all_quads = has_face & (size == 3), has_face & (size == 4)
         has_triangle_pairs = size == 3 and bool((face_across >= 0).any())
     else:
@@ -187,6 +194,15 @@ def connect(
         has_triangle_pairs=has_triangle_pairs,
         labels=labels,
     )
+
+
+def _counted(owner: NDArray[np.int32], n_owners: int) -> NDArray[np.intp]:
+    """Return how many entries name each owner, shape (n_owners,)."""
+    counts = np.zeros(n_owners, np.intp)
+    size = max(2**18, n_owners)  # a part at a time, so that few indices are converted at once
+    for start in range(0, len(owner), size):
+        counts += np.bincount(owner[start : start + size], minlength=n_owners)
+    return counts
 
 
 def _valences(

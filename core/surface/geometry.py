@@ -31,16 +31,20 @@ def coordinate_rows(
     return rows
 
 
-def mean_edge_length(surface: SurfaceMesh, blocks: Blocks | None = None) -> float:
+def mean_edge_length(
+    surface: SurfaceMesh, blocks: Blocks | None = None, edge_face_count: NDArray[np.integer] | None = None
+) -> float:
     """Return the mean edge length over all face-edge incidences, in scene units; 0.0 without faces.
 
     An edge between two faces counts twice, so that on a closed mesh this is the mean over its edges.
-    `blocks` are threads to work on.
+    `blocks` are threads to work on; `edge_face_count` (E,) are the faces at each edge, if they are known.
     """
     if not surface.n_corners:
         return 0.0
     points = coordinate_rows(surface, blocks)
-    n_faces = np.bincount(surface.corner_edge, minlength=surface.n_edges)
+    n_faces = edge_face_count
+    if n_faces is None:
+        n_faces = np.bincount(surface.corner_edge, minlength=surface.n_edges)
 
     def kernel(start: int, stop: int) -> float:
         ends = np.ascontiguousarray(surface.edges[start:stop].T, np.intp)

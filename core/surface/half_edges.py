@@ -8,6 +8,7 @@ Corner c of a face is also the half-edge from its vertex to the vertex of the ne
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,8 +23,8 @@ class HalfEdges:
 
     Attributes
     ----------
-    next_corner, previous_corner : ndarray, shape (C,), int32
-        Neighboring corners within the face.
+    surface : SurfaceMesh
+        The mesh.
     target : ndarray, shape (C,), int32
         The vertex at the end of each half-edge.
     partner : ndarray, shape (C,), int32
@@ -34,19 +35,28 @@ class HalfEdges:
         Number of faces at each edge; 0 for loose edges.
     """
 
-    next_corner: NDArray[np.int32]
-    previous_corner: NDArray[np.int32]
+    surface: SurfaceMesh
     target: NDArray[np.int32]
     partner: NDArray[np.int32]
     is_twisted: NDArray[np.bool_]
     edge_face_count: NDArray[np.int32]
 
+    @cached_property
+    def next_corner(self) -> NDArray[np.int32]:
+        """The next corner of the face of each corner, shape (C,), int32."""
+        return self.surface.next_corner()
+
+    @cached_property
+    def previous_corner(self) -> NDArray[np.int32]:
+        """The previous corner of the face of each corner, shape (C,), int32."""
+        return self.surface.previous_corner()
+
 
 def find_half_edges(surface: SurfaceMesh, blocks: Blocks | None = None) -> HalfEdges:
     """Pair the half-edges of a mesh.
 
-    Sums do it without sorting: of the two corners that name an edge, each is what is left of their sum when
-    the other is taken away.
+    It takes no sorting: all corners write their numbers to their edge, once in ascending and once in
+    descending order, so that the last and the first one stand there.
 
     Parameters
     ----------
@@ -59,33 +69,93 @@ def find_half_edges(surface: SurfaceMesh, blocks: Blocks | None = None) -> HalfE
     -------
     HalfEdges
     """
+    blocks = blocks or Blocks(1)
     n_corners = surface.n_corners
     edge, vertex = surface.corner_edge, surface.corner_vertex
-    following = surface.next_corner()
-    index = edge.astype(np.intp)  # converted once, not by each call
-    count = np.bincount(index, minlength=surface.n_edges).astype(np.int32)
-    corner = np.arange(n_corners, dtype=np.int32)
-    both = np.bincount(index, corner, minlength=surface.n_edges)  # exact in float64
-    del index
-    both[count != 2] = -1.0
-    both = both.astype(np.int64)
+    first, last = blocks.together(
+        lambda: last_corners(edge, surface.n_edges, is_descending=True),
+        lambda: last_corners(edge, surface.n_edges),
+    )
+    target = shifted(vertex, surface, 1, blocks)
     partner = np.empty(n_corners, np.int32)
-    target = np.empty(n_corners, np.int32)
     is_twisted = np.empty(n_corners, bool)
 
-    def kernel(start: int, stop: int) -> bool:
-        part = slice(start, stop)
-        own, sums = corner[part], both.take(edge[part])
-        np.subtract(sums, own, out=partner[part], casting="unsafe")
-        partner[part][sums < 0] = -1
-        np.take(vertex, following[part], out=target[part], mode="clip")
-        np.equal(vertex.take(partner[part], mode="clip"), vertex[part], out=is_twisted[part])
-        is_twisted[part] &= partner[part] >= 0
-        return bool((target[part] == vertex[part]).any())
+    def kernel(start: int, stop: int) -> tuple[bool, bool]:
+        part, own = slice(start, stop), np.arange(start, stop, dtype=np.int32)
+        at, found = edge[part].astype(np.intp), partner[part]
+        low, high = first.take(at, mode="clip"), last.take(at, mode="clip")
+        has_others = bool(((low != own) & (high != own)).any())
+        np.copyto(found, np.where(low == own, high, low))
+        found[low == high] = -1
+        np.equal(vertex.take(found, mode="clip"), vertex[part], out=is_twisted[part])
+        is_twisted[part] &= found >= 0
+        return has_others, bool((target[part] == vertex[part]).any())
 
-    if any((blocks or Blocks(1)).run(kernel, n_corners)):
+    found = blocks.run(kernel, n_corners)
+    if any(has_others for has_others, _ in found):
+        count = np.bincount(edge, minlength=surface.n_edges).astype(np.int32)
+        is_many = count[edge] > 2
+        partner[is_many] = -1
+        is_twisted[is_many] = False
+    else:
+        count = (first >= 0).astype(np.int32)
+        count += first != last
+    if any(has_loops for _, has_loops in found):
         # A face that names a vertex twice in a row has an edge from it to itself: no partner can be told.
         loops = target == vertex
         partner[loops] = -1
         is_twisted[loops] = False
-    return HalfEdges(following, surface.previous_corner(), target, partner, is_twisted, count)
+    return HalfEdges(surface, target, partner, is_twisted, count)
+
+
+def last_corners(
+    owner: NDArray[np.int32], n_owners: int, *, is_descending: bool = False
+) -> NDArray[np.int32]:
+    """Return the last corner of each owner, or the first one, shape (n_owners,), int32; -1 if there is none.
+
+    `owner`, shape (C,), is what each corner belongs to.
+    """
+    result = np.full(n_owners, -1, np.int32)
+    size = 2**16  # indices are converted in the cache
+    starts = range(0, len(owner), size)
+    for start in reversed(starts) if is_descending else starts:
+        part = owner[start : start + size].astype(np.intp)
+        corner = np.arange(start, start + len(part), dtype=np.int32)
+        # Of all that is written to one place the last one stays.
+        if is_descending:
+            result[part[::-1]] = corner[::-1]
+        else:
+            result[part] = corner
+    return result
+
+
+def shifted(values: NDArray[np.int32], surface: SurfaceMesh, step: int, blocks: Blocks) -> NDArray[np.int32]:
+    """Return what is at the next or the previous corner of the face of each corner, shape (C,), int32.
+
+    Parameters
+    ----------
+    values : ndarray, shape (C,), int32
+        A number for each corner.
+    surface : SurfaceMesh
+        The mesh.
+    step : {1, -1}
+        Next or previous.
+    blocks : Blocks
+        Threads to work on.
+    """
+    result = np.empty_like(values)
+    size = surface.common_face_size()
+    if size:
+        source, target = values.reshape(-1, size), result.reshape(-1, size)
+
+        def turn(start: int, stop: int) -> None:
+            for place in range(size):
+                target[start:stop, place] = source[start:stop, (place + step) % size]
+
+        blocks.run(turn, surface.n_faces)
+        return result
+    corner = surface.next_corner() if step > 0 else surface.previous_corner()
+    blocks.run(
+        lambda start, stop: values.take(corner[start:stop], out=result[start:stop], mode="clip"), len(corner)
+    )
+    return result

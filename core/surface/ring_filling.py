@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
-from .half_edges import HalfEdges
+from .half_edges import HalfEdges, shifted
 from .rings import LONGEST_WALK, Walks, walk
 from .surface_mesh import SurfaceMesh
 
@@ -33,6 +33,7 @@ def fill_rings(
     surface: SurfaceMesh,
     half_edges: HalfEdges,
     n_corners: NDArray[np.intp],
+    first: NDArray[np.int32],
     broken: NDArray[np.bool_],
     is_twisted: NDArray[np.bool_],
     labels: NDArray[np.int32] | None,
@@ -50,6 +51,8 @@ def fill_rings(
         Its half-edges.
     n_corners : ndarray, shape (N,), intp
         Number of corners at each vertex.
+    first : ndarray, shape (N,), int32
+        A corner of each vertex, if it has one; changed.
     broken : ndarray, shape (N,), bool
         Vertices that are known to have no single fan; those that are found to have none are added.
     is_twisted : ndarray, shape (N,), bool
@@ -61,7 +64,7 @@ def fill_rings(
     """
     has_ring = (n_corners > 0) & ~broken
     is_long = n_corners > LONGEST_WALK
-    corners = _make_corners(surface, half_edges, labels)
+    corners = _make_corners(half_edges, first, labels, blocks)
     short = np.where(has_ring & ~is_twisted & ~is_long, n_corners, 0)
 
     def kernel(start: int, stop: int) -> None:
@@ -74,7 +77,7 @@ def fill_rings(
     wanted = np.flatnonzero(has_ring & ~is_twisted & is_long)
     if len(wanted):
         walks = walk(corners.following, corners.first[wanted], corners.vertex, corners.keys(), blocks)
-        source = corners.vertex[corners.previous]
+        source = corners.vertex[half_edges.previous_corner]
         _store(_Fans(walks, wanted, corners.target, source, 1), rings, n_corners, broken)
     wanted = np.flatnonzero(has_ring & is_twisted)
     if len(wanted):
@@ -90,7 +93,7 @@ class _Corners(NamedTuple):
     """A corner of each vertex; of an open fan the first one."""
     vertex: NDArray[np.int32]
     target: NDArray[np.int32]
-    previous: NDArray[np.int32]
+    half_edges: HalfEdges
     labels: NDArray[np.int32] | None
 
     def keys(self) -> NDArray[np.int32]:
@@ -98,21 +101,16 @@ class _Corners(NamedTuple):
         return self.target if self.labels is None else self.labels[self.target]
 
 
-def _make_corners(surface: SurfaceMesh, half_edges: HalfEdges, labels: NDArray[np.int32] | None) -> _Corners:
-    vertex, partner = surface.corner_vertex, half_edges.partner
+def _make_corners(
+    half_edges: HalfEdges, first: NDArray[np.int32], labels: NDArray[np.int32] | None, blocks: Blocks
+) -> _Corners:
+    surface, partner = half_edges.surface, half_edges.partner
+    vertex = surface.corner_vertex
     # The partner of the incoming half-edge leaves the same vertex, in the next face counterclockwise.
-    size = surface.common_face_size()
-    if size:
-        following = np.empty_like(partner)
-        for place in range(size):
-            following[place::size] = partner[(place - 1) % size :: size]
-    else:
-        following = partner[half_edges.previous_corner]
-    first = np.full(surface.n_vertices, -1, np.int32)
-    first[vertex] = np.arange(surface.n_corners, dtype=np.int32)
+    following = shifted(partner, surface, -1, blocks)
     rim = np.flatnonzero(partner < 0).astype(np.int32)
     first[vertex[rim]] = rim  # an open fan begins where no face lies on the other side of the outgoing edge
-    return _Corners(following, first, vertex, half_edges.target, half_edges.previous_corner, labels)
+    return _Corners(following, first, vertex, half_edges.target, half_edges, labels)
 
 
 def _fill_short(
@@ -154,7 +152,7 @@ def _fill_short(
     rings.corner[place] = items
     if is_open.any():
         begin, last = begin[is_open], items[-1, is_open]
-        rim = corners.vertex[corners.previous[last]]
+        rim = corners.vertex[corners.half_edges.previous_corner[last]]
         rings.ring[begin + size] = rim
         rings.rim[vertices[is_open], 0] = rings.ring[begin]
         rings.rim[vertices[is_open], 1] = rim

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -64,6 +65,10 @@ class SurfaceMesh:
 
     def common_face_size(self) -> int:
         """Return the number of corners that all faces have; 0 if they differ or there is no face."""
+        return self._common_face_size
+
+    @cached_property
+    def _common_face_size(self) -> int:
         if not self.n_faces or self.n_corners % self.n_faces:
             return 0
         size = self.n_corners // self.n_faces

@@ -148,3 +148,13 @@ def test_stencils_do_not_depend_on_blocks(large):
         blocked = make_stencil(large, connect(large, blocks), blocks=blocks)
     assert np.array_equal(plain.slots, blocked.slots)
     assert np.array_equal(plain.virtual_vertex, blocked.virtual_vertex)
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_tasks_run_together_and_results_keep_their_order(threads):
+    with Blocks(threads) as blocks:
+        assert blocks.together(lambda: "first", lambda: "second", lambda: "third") == [
+            "first",
+            "second",
+            "third",
+        ]

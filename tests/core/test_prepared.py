@@ -7,11 +7,11 @@ from dataclasses import fields, replace
 import numpy as np
 import pytest
 from checks import assert_same_bits, lengths, read_only
-from framelet.core import PRESETS, PreparationCache, SurfaceMesh, denoise, prepare
+from framelet.core import PRESETS, PreparationCache, Region, SurfaceMesh, denoise, prepare
 from framelet.core.denoising import prepared as module
 from framelet.core.denoising.preparation_cache import bytes_of
 from framelet.core.surface.locality import reorder
-from meshes import MESHES, faces_of, flipped, mixed_sheet, noisy, triangle_grid, triangle_torus
+from meshes import MESHES, faces_of, flipped, mixed_sheet, noisy, triangle_grid, triangle_torus, union
 
 POSITIONS = ("TRI_1", "TRI_2")
 OTHERS = ("FREE_FORM", "BILATERAL")
@@ -180,3 +180,28 @@ def test_faces_of_the_prepared_mesh_are_those_of_the_caller(rng, monkeypatch):
     prepared = prepare(mesh)
     assert prepared.surface is mesh
     assert sorted(map(len, faces_of(prepared.ordered))) == sorted(map(len, faces_of(mesh)))
+
+
+def test_what_is_known_of_the_faces_is_kept_and_counted(rng):
+    mesh = noisy(triangle_torus(), rng)
+    settings = settings_of("TRI_2")
+    prepared = prepare(mesh, settings)
+    before = bytes_of(prepared)
+    denoise(mesh, settings, prepared=prepared)
+    (faces,) = prepared.faces
+    assert bytes_of(prepared) >= before + faces.areas.nbytes
+    denoise(mesh, settings, prepared=prepared)
+    assert prepared.faces[0].areas is faces.areas
+
+
+def test_what_is_known_of_the_faces_is_not_used_for_welded_meshes(rng):
+    sheet = noisy(triangle_grid(), rng)
+    settings = settings_of("TRI_2")
+    cache = PreparationCache()
+    for distance in (None, 0.0, None):
+        region = Region(weld_distance=distance)
+        doubled = union(sheet, sheet)
+        alone = denoise(doubled, settings, region=region)
+        again = denoise(doubled, settings, region=region, prepared=cache)
+        assert_same_bits(alone.vertices, again.vertices)
+        assert replace(alone.report, seconds=0.0) == replace(again.report, seconds=0.0)

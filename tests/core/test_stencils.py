@@ -228,3 +228,17 @@ def test_an_unknown_rule_is_refused():
     mesh = triangle_grid()
     with pytest.raises(ValueError, match=r"stencil rule is 'BEST'; choose one of MEAN, STRAIGHT"):
         make_stencil(mesh, connect(mesh), "BEST")
+
+
+@pytest.mark.parametrize("valence", [3, 4, 5, 7])
+def test_longest_edges_match_a_loop(valence, rng):
+    points = rng.integers(0, 3, (30, 3)).astype(float)  # on a grid, so that there are equals
+    rings = np.array([rng.choice(30, valence, replace=False) for _ in range(200)]).T.astype(np.int32)
+    for n_edges in range(valence + 1):
+        found = straight.longest_edges(points, rings, n_edges)
+        for ring, code in zip(rings.T, found, strict=True):
+            lengths = [
+                np.linalg.norm(points[ring[(k + 1) % valence]] - points[ring[k]]) for k in range(valence)
+            ]
+            order = sorted(range(valence), key=lambda k: -lengths[k])
+            assert code == sum(1 << k for k in order[:n_edges])

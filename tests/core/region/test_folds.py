@@ -8,6 +8,7 @@ from checks import AS_SOLVED, assert_same_bits, lengths
 from framelet.core import PRESETS, Region, SurfaceMesh, denoise
 from framelet.core.blocks import Blocks
 from framelet.core.region.carrier import Carrier
+from framelet.core.region.corner_lists import corners_around
 from framelet.core.region.face_watch import DEGENERATE, FaceWatch
 from framelet.core.region.folds import take_back
 from framelet.core.surface.connectivity import connect
@@ -48,7 +49,7 @@ def folded_by_a_loop(mesh):
 def test_folded_faces_match_a_loop(name, rng):
     mesh = noisy(MESHES[name](), rng, 0.4)
     watch = watch_of(mesh)
-    assert watch.was_folded.tolist() == folded_by_a_loop(mesh).tolist()
+    assert watch.before.is_folded.tolist() == folded_by_a_loop(mesh).tolist()
     other = noisy(mesh, rng, 0.4)
     watch.look(other.vertices)
     assert watch.is_folded.tolist() == folded_by_a_loop(other).tolist()
@@ -62,13 +63,13 @@ def test_folded_faces_match_a_loop(name, rng):
 def test_volumes_are_those_of_the_mesh(make, rng):
     mesh = noisy(make(), rng)
     watch = watch_of(mesh)
-    assert watch.volume_before * mean_edge_length(mesh) ** 3 == pytest.approx(signed_volume(mesh), rel=1e-12)
+    assert watch.before.volume * mean_edge_length(mesh) ** 3 == pytest.approx(signed_volume(mesh), rel=1e-12)
 
 
 def test_a_face_that_is_turned_by_hand_is_folded(rng):
     mesh = noisy(triangle_torus(24, 32), rng, 0.05)
     watch = watch_of(mesh)
-    assert not watch.was_folded.any()
+    assert not watch.before.is_folded.any()
     vertices = mesh.vertices.copy()
     a, b, c = mesh.corner_vertex[:3]
     vertices[a] = vertices[b] + vertices[c] - vertices[a]  # over to the other side of its edge
@@ -79,14 +80,14 @@ def test_a_face_that_is_turned_by_hand_is_folded(rng):
 
 def test_flat_meshes_and_smooth_ones_have_no_folds():
     for mesh in (triangle_grid(), triangle_torus(), quad_torus(12, 16)):
-        assert not watch_of(mesh).was_folded.any()
+        assert not watch_of(mesh).before.is_folded.any()
 
 
 def test_degenerate_faces_are_counted(rng):
     points = [[0, 0, 0], [1, 0, 0], [2, 0, 0], [0, 1, 0], [1, 1, 0]]
     mesh = SurfaceMesh.from_faces(points, [(0, 1, 2), (0, 1, 3), (1, 4, 3), (1, 1, 4)])
     watch = watch_of(mesh)
-    assert watch.was_degenerate.tolist() == [True, False, False, True]
+    assert watch.before.is_degenerate.tolist() == [True, False, False, True]
     vertices = mesh.vertices.copy()
     vertices[3] = [0.5 * DEGENERATE, 0, 0]
     watch.look(vertices)
@@ -122,8 +123,8 @@ def test_any_motion_can_be_taken_back(name, sigma, rng):
     again = watch_of(mesh)
     again.look(vertices)
     assert not again.is_bad().any()
-    assert again.is_folded.sum() <= again.was_folded.sum()
-    assert again.is_degenerate.sum() <= again.was_degenerate.sum()
+    assert again.is_folded.sum() <= again.before.is_folded.sum()
+    assert again.is_degenerate.sum() <= again.before.is_degenerate.sum()
     moved = vertices - mesh.vertices
     assert np.abs(moved.T - displacement * shares).max() < 1e-12
     assert set(shares) <= {1.0, 0.5, 0.25, 0.125, 0.0625, 0.0}
@@ -250,3 +251,30 @@ def test_the_number_of_calls_does_not_grow_with_the_mesh(rng):
         calls.append(pstats.Stats(profile).total_calls)
     assert calls[1] < 3 * calls[0]
     assert lengths(displacement.T).max() > 0
+
+
+@pytest.mark.parametrize("name", MESHES)
+def test_corners_around_vertices_match_a_search(name, rng):
+    mesh = MESHES[name]()
+    connectivity = connect(mesh)
+    for share in (0.02, 0.3, 1.0):
+        vertices = np.flatnonzero(rng.random(mesh.n_vertices) < share)
+        found = corners_around(mesh, connectivity, vertices)
+        assert found.tolist() == np.flatnonzero(np.isin(mesh.corner_vertex, vertices)).tolist()
+
+
+def test_faces_that_are_known_already_give_the_same(rng):
+    mesh = noisy(triangle_torus(12, 30), rng, 0.4)
+    first = watch_of(mesh)
+    again = FaceWatch(first.carrier, Blocks(1), first.before)
+    other = noisy(mesh, rng, 0.4)
+    areas = first.before.areas.copy()
+    for watch in (first, again):
+        watch.look(other.vertices)
+        changed = np.zeros(mesh.n_vertices, bool)
+        changed[:9] = True
+        watch.look_around(np.where(changed[:, None], mesh.vertices, other.vertices), changed)
+    assert first.is_bad().any()
+    assert again.is_bad().tolist() == first.is_bad().tolist()
+    assert_same_bits(again.areas, first.areas)
+    assert_same_bits(first.before.areas, areas)
