@@ -113,9 +113,10 @@ def _reachable(
     numbers[centers] = 0
     for _ in range(n_steps):
         reached = adjacency.neighbor[_ragged(adjacency.offset, found[-1])[0]]
-        reached = np.unique(reached[numbers[reached] < 0])
-        numbers[reached] = 0
-        found.append(reached)
+        reached = reached[numbers[reached] < 0]
+        own = np.arange(len(reached), dtype=np.int32)
+        numbers[reached] = own  # of the same vertex the last one stays
+        found.append(reached[numbers[reached] == own])
     around = np.sort(np.concatenate(found))
     numbers[around] = np.arange(len(around), dtype=np.int32)
     return around
@@ -150,7 +151,7 @@ def _search(
     rings = {}
     for distance in range(1, max(distances) + 1):
         if table is not None:
-            reached = table[local]
+            reached = table.take(local, axis=0)
             reached += (row * width)[:, None]
         else:  # a few vertices have very many neighbors
             sizes = counts[local]

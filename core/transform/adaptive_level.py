@@ -70,15 +70,14 @@ class _Chunk:
     def __init__(
         self,
         bank: HarmonicBank | PairwiseBank,
-        vertices: NDArray[np.int32],
         taps: NDArray[np.int32],
         begin: int,
         unpenalized: slice,
     ) -> None:
         self.bank = bank
         self.unpenalized = unpenalized
-        self.vertices = vertices
         self.taps = taps  # (K + 1, n)
+        self.vertices = taps[0]
         self.place = slice(begin, begin + taps.size)  # where its taps stand in the flat list of all taps
 
 
@@ -103,7 +102,7 @@ class AdaptiveLevel:
         self,
         neighbors: Neighbors,
         family: type[HarmonicBank] | type[PairwiseBank],
-        out_measure: NDArray[np.float64],
+        out_measure: NDArray[np.floating],
         dtype: DTypeLike,
         blocks: Blocks,
     ) -> None:
@@ -111,17 +110,17 @@ class AdaptiveLevel:
         self._dtype = np.dtype(dtype)
         self._n = len(neighbors.is_kept)
         self._chunks = _make_chunks(neighbors, family)
-        self._out_measure = out_measure
+        self._out_measure = out_measure.astype(self._dtype, copy=False)
         self._is_weighted = bool((out_measure != 1.0).any())
 
     @cached_property
-    def measure(self) -> NDArray[np.float64]:
-        """The measure m pulled back to this level's input, shape (N,)."""
+    def measure(self) -> NDArray[np.floating]:
+        """The measure m pulled back to this level's input, shape (N,), in the precision of the level."""
         measure = np.zeros(self._n)
         for chunk in self._chunks:
             flow = chunk.bank.weights[:, None] * self._out_measure[chunk.vertices]
             measure += np.bincount(chunk.taps.ravel(), flow.ravel(), self._n)
-        return measure
+        return measure.astype(self._dtype)
 
     def prepare(self) -> None:
         """Find what `forward` and `backward` need."""
@@ -144,9 +143,9 @@ class AdaptiveLevel:
         return sources
 
     def _gathered(self, slots: NDArray[np.floating]) -> Points:
-        """Sum values of all taps, shape (3, slots), to the vertices under them, and divide by the measure."""
-        result = np.empty((3, self._n), slots.dtype)
-        share = np.divide(1.0, self.measure).astype(slots.dtype)
+        """Sum values of all taps, shape (C, slots), to the vertices under them, and divide by the measure."""
+        result = np.empty((len(slots), self._n), slots.dtype)
+        share = np.divide(1.0, self.measure, dtype=slots.dtype)
         sources = self._sources
 
         def kernel(index: int, _: int) -> None:
@@ -242,17 +241,22 @@ class AdaptiveLevel:
         """Rebuild the surface by the adjoint with respect to the measures; see `Level`."""
         if next_low is None:
             return pending
-        slots = np.empty((3, self._n_slots), pending.dtype)
-        weighted = next_low * self._out_measure.astype(next_low.dtype) if self._is_weighted else next_low
+        # One coordinate after the other: so there is memory for one only.
+        slots = np.empty((1, self._n_slots), pending.dtype)
+        result = pending.copy()
+        for axis in range(3):
+            low = next_low[axis]
 
-        def kernel(index: int, _: int) -> None:
-            chunk = self._chunks[index]
-            weights = chunk.bank.weights.astype(slots.dtype)[:, None]
-            slots[:, chunk.place] = (weights * weighted[:, None, chunk.vertices]).reshape(3, -1)
+            def kernel(index: int, _: int, low: NDArray[np.floating] = low) -> None:
+                chunk = self._chunks[index]
+                own = low.take(chunk.vertices)
+                if self._is_weighted:
+                    own *= self._out_measure.take(chunk.vertices)
+                weights = chunk.bank.weights.astype(slots.dtype)[:, None]
+                np.multiply(weights, own, out=slots[0, chunk.place].reshape(chunk.taps.shape))
 
-        self._blocks.run(kernel, len(self._chunks))
-        result = self._gathered(slots)
-        result += pending
+            self._blocks.run(kernel, len(self._chunks))
+            result[axis] += self._gathered(slots)[0]
         return result
 
     def adjoint(self, next_low: Points, chunks: Sequence[Chunk]) -> Points:
@@ -283,8 +287,6 @@ def _make_chunks(neighbors: Neighbors, family: type[HarmonicBank] | type[Pairwis
                     taps = np.empty((count + 1, len(part)), np.int32)
                     taps[0] = part
                     taps[1:] = neighbors.neighbor[neighbors.offset[part] + np.arange(count)[:, None]]
-                    chunks.append(
-                        _Chunk(bank, part, taps, begin, slice(None) if is_kept else bank.unpenalized)
-                    )
+                    chunks.append(_Chunk(bank, taps, begin, slice(None) if is_kept else bank.unpenalized))
                     begin += taps.size
     return chunks

@@ -53,7 +53,7 @@ class FrameTransform:
             low = level.adjoint(low, chunks)
         return np.ascontiguousarray(low.T)
 
-    def measures(self) -> list[NDArray[np.float64]]:
+    def measures(self) -> list[NDArray[np.floating]]:
         """Return the measures at the input of each level and at the end, L + 1 arrays of shape (N,)."""
         one = np.ones(self.levels[0].n_vertices)
         return [*(getattr(level, "measure", one) for level in self.levels), one]
@@ -79,7 +79,8 @@ class FrameTransform:
             low, pending = level.forward(low, visit, needs_low=index < len(self.levels))
             waiting.append(pending)
         change: Points | None = None
-        for level, pending in zip(reversed(self.levels), reversed(waiting), strict=True):
-            change = level.backward(change, pending)
+        del low, pending
+        for level in reversed(self.levels):
+            change = level.backward(change, waiting.pop())
         assert change is not None
         return change

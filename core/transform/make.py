@@ -127,7 +127,7 @@ def _adaptive_transform(
             level = AdaptiveLevel(neighbors[-1], family, one, dtype, blocks)
             points = np.ascontiguousarray(low.vertices.T, dtype)
             low = low.with_vertices(np.ascontiguousarray(level.low_pass(points).T))
-    measure: NDArray[np.float64] = one
+    measure: NDArray[np.floating] = one
     levels: list[AdaptiveLevel] = []
     del members, dilated, low
     while neighbors:
