@@ -198,12 +198,8 @@ class NormalProblem:
         tick: Tick | None = None,
     ) -> NDArray[np.floating]:
         """Return positions, shape (3, N), whose faces have the wanted normals as far as possible."""
-        found = start
-        for points, change in self.fit.steps(start, normals).points(n_steps, constraints, self.noisy):
-            found = points
-            if tick is not None:
-                tick(change)
-        return found
+        fit = self.fit.steps(start, normals)
+        return fit.after(n_steps, constraints, self.noisy, tick or (lambda _: None))
 
     def run(
         self,

@@ -148,7 +148,14 @@ class Averages:
 
     def outward(self, field: NDArray) -> NDArray:
         """Return a field that is numbered as inside, shape (n, ...), as the caller numbers it."""
-        return field.take(self._place, axis=0)
+        field = np.ascontiguousarray(field)
+        result = np.empty((len(self._place), *field.shape[1:]), field.dtype)
+
+        def kernel(start: int, stop: int) -> None:
+            field.take(self._place[start:stop], axis=0, out=result[start:stop], mode="clip")
+
+        self._item_blocks.run(kernel, len(self._place))
+        return result
 
     def for_chunks(
         self, fill: Callable[[Chunk, NDArray[np.floating]], None], dtype: DTypeLike = np.float64
@@ -170,18 +177,30 @@ class Averages:
 
     def go_on(self, weights: Weights, field: NDArray[np.floating], before: NDArray[np.floating]) -> None:
         """Replace the field before by 2 A field - before, in place, as Chebyshev polynomials go on."""
-        tiles = before.reshape(-1, TILE, before.shape[1])
+        self.following(weights, field, before, before)
+
+    def following(
+        self,
+        weights: Weights,
+        field: NDArray[np.floating],
+        before: NDArray[np.floating],
+        out: NDArray[np.floating] | None = None,
+    ) -> NDArray[np.floating]:
+        """Return 2 A field - before, by default in new memory; all are numbered as inside, shape (n, C)."""
+        result = np.empty_like(before) if out is None else out
+        old, new = (values.reshape(-1, TILE, before.shape[1]) for values in (before, result))
 
         def kernel(start: int, stop: int) -> None:
             for (begin, members, _), weight in zip(
                 self._chunks[start:stop], weights[start:stop], strict=True
             ):
-                part = tiles[begin : begin + len(members)]
-                following = np.matmul(weight, field.take(members, axis=0))
-                following *= 2
-                np.subtract(following, part, out=part)
+                part = slice(begin, begin + len(members))
+                means = np.matmul(weight, field.take(members, axis=0))
+                means *= 2
+                np.subtract(means, old[part], out=new[part])
 
         self._blocks.run(kernel, len(self._chunks))
+        return result
 
     def average(self, weights: Weights, field: NDArray[np.floating]) -> NDArray[np.floating]:
         """Return the averages of a field; both are numbered as inside, shape (n, C)."""

@@ -29,6 +29,9 @@ WIDEST = 4
 LEFT_OUT = 0.03
 """Terms of the series of a power of A that are left out sum up to less than this."""
 
+WIDTH = 0.92
+"""Mean square of the degrees of the terms that are kept, in units of the exponent."""
+
 
 def shrink_bands(
     noisy: NDArray[np.floating],
@@ -94,78 +97,123 @@ def shrink_inside(
     result = np.zeros((len(fields), 3), fields.dtype)
     waiting: NDArray[np.floating] | None = None  # the high band whose energies are being smoothed
     to_come = 0
+
+    def settle(energies: NDArray[np.floating]) -> None:
+        """Add the band that waits for its energies."""
+        nonlocal waiting
+        if waiting is not None:
+            _add_shrunk(result, waiting, energies, caution, averages)
+        waiting = None
+
     for band in range(n_bands):
         before = fields
         n_steps = 1 if band == 0 else 2 ** (band - 1)
-        # The first steps one by one, as long as energies are on their way.
-        for _ in range(min(n_steps, WIDEST)):
-            fields = averages.average(weights, fields)
-            to_come -= 1
-            if waiting is not None and not to_come:
-                _add_shrunk(result, waiting, fields[:, _N:], caution, averages)
-                waiting = None
         if n_steps > WIDEST:
-            fields = _averaged_often(fields, n_steps - WIDEST, averages, weights)
+            fields = _averaged_often(fields, n_steps, averages, weights, settle)
+        else:
+            for _ in range(n_steps):
+                fields = averages.average(weights, fields)
+                to_come -= 1
+                if waiting is not None and not to_come:
+                    settle(fields[:, _N:])
         to_come = min(WIDEST, max(2, 2**band))
         high, fields = _split(before, fields, averages)
         del before
         if band + 1 < n_bands and to_come <= 2**band:
             waiting = high
         else:
-            energies = np.ascontiguousarray(fields[:, _N:])
+            energies = _times(1.0, fields[:, _N:], averages)
             for _ in range(to_come):
                 energies = averages.average(weights, energies)
-            _add_shrunk(result, high, energies, caution, averages)
-            fields = np.ascontiguousarray(fields[:, :_N])
+            waiting = high
+            settle(energies)
+            fields = _times(1.0, fields[:, :_N], averages)
         tick()
-    result += fields[:, :3]
+    _add_times(1.0, fields[:, :3], result, averages)
     return averages.outward(result).T
 
 
 def _averaged_often(
-    fields: NDArray[np.floating], n_steps: int, averages: Averages, weights: Weights
+    fields: NDArray[np.floating],
+    n_steps: int,
+    averages: Averages,
+    weights: Weights,
+    settle: Callable[[NDArray[np.floating]], None] = lambda _: None,
 ) -> NDArray[np.floating]:
-    """Return A^n of fields, nearly, in far fewer steps; the fields are used up.
+    """Return A^n of fields, shape (n, 9), nearly, in far fewer steps.
 
     A is similar to a symmetric matrix with eigenvalues between -1 and 1, so that A^n is a sum of Chebyshev
     polynomials T_j(A) with coefficients that fall off like a Gaussian of width sqrt(n). What is left out
-    touches only what the averages before have taken away already, and constants stay as they are.
+    touches only what the bands before have taken away already, and constants stay as they are. Of energies in
+    columns behind the fields A^`WIDEST` is on the way, and exact: `settle` is called with it.
     """
-    coefficients = _power_series(n_steps)
+    exact, series = _power_series(WIDEST, 0.0), _power_series(n_steps, LEFT_OUT)
+    total = _times(series[0], fields[:, :_N], averages)
+    energies = _times(exact[0], fields[:, _N:], averages)
     before, current = fields, averages.average(weights, fields)
-    total = fields.dtype.type(coefficients[0]) * fields
-    _add_times(fields.dtype.type(coefficients[1]), current, total, averages)
-    for coefficient in coefficients[2:]:
-        averages.go_on(weights, current, before)
-        before, current = current, before
-        _add_times(fields.dtype.type(coefficient), current, total, averages)
+    for degree in range(1, max(len(exact), len(series))):
+        if degree == 2:
+            before, current = current, averages.following(weights, current, before)
+        elif degree > 2:
+            averages.go_on(weights, current, before)
+            before, current = current, before
+        if degree < len(series):
+            _add_times(series[degree], current[:, :_N], total, averages)
+        if degree <= WIDEST:
+            _add_times(exact[degree], current[:, _N:], energies, averages)
+        if degree == WIDEST:
+            settle(energies)
+            del energies
     return total
 
 
-def _add_times(
-    factor: np.floating, field: NDArray[np.floating], total: NDArray[np.floating], averages: Averages
-) -> None:
-    """Add a field to a sum, so many times."""
+def _times(factor: float, field: NDArray[np.floating], averages: Averages) -> NDArray[np.floating]:
+    """Return so many times a field."""
+    result = np.empty(field.shape, field.dtype)
+    times = field.dtype.type(factor)
 
     def kernel(start: int, stop: int) -> None:
-        total[start:stop] += factor * field[start:stop]
+        np.multiply(times, field[start:stop], out=result[start:stop])
+
+    averages.for_items(kernel)
+    return result
+
+
+def _add_times(
+    factor: float, field: NDArray[np.floating], total: NDArray[np.floating], averages: Averages
+) -> None:
+    """Add a field to a sum, so many times."""
+    times = total.dtype.type(factor)
+
+    def kernel(start: int, stop: int) -> None:
+        total[start:stop] += times * field[start:stop]
 
     if factor:
         averages.for_items(kernel)
 
 
 @cache
-def _power_series(exponent: int) -> list[float]:
-    """Return the Chebyshev coefficients of x^n, the small ones at the end left out, with sum 1.
+def _power_series(exponent: int, left_out: float) -> list[float]:
+    """Return the Chebyshev coefficients of x^n without those at the end that sum up to less, with sum 1.
 
-    They are the chances of a random walk of n steps to end j steps from where it began.
+    They are the chances of a random walk of n steps to end j steps from where it began. The mean square of j
+    is n, and says how much is taken off fields that hardly change from face to face, where x is nearly 1. So
+    those that are kept are changed by a Gaussian until it is `WIDTH` n.
     """
     found = np.zeros(exponent + 1)
     for apart in range(exponent, -1, -2):
         found[apart] = comb(exponent, (exponent - apart) // 2) / 2.0 ** (exponent - (apart > 0))
-    left_out = np.cumsum(found[::-1])[::-1]
-    kept = found[: max(2, int(np.count_nonzero(left_out > LEFT_OUT)))]
-    return (kept / kept.sum()).tolist()
+    tails = np.cumsum(found[::-1])[::-1]
+    kept = found[: max(2, int(np.count_nonzero(tails > left_out)))]
+    squares = np.arange(len(kept)) ** 2.0
+    wanted = exponent * (WIDTH if len(kept) <= exponent else 1.0)
+    low, high = -1.0 / exponent, 1.0 / exponent
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        tilted = kept * np.exp(middle * squares)
+        tilted /= tilted.sum()
+        low, high = (middle, high) if tilted @ squares < wanted else (low, middle)
+    return tilted.tolist()
 
 
 def _split(

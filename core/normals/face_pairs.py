@@ -10,15 +10,17 @@ respect to the measure that the equal weights pull back to the faces.
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
+from ..frames.mask_product import apply_matrix
 from ..surface.locality import stable_order
 from ..transform.adaptive_level import Neighbors
-from .parts import empty_parts, in_one_array
+from .parts import empty_parts
 
 TAPS_AT_ONCE = 2**15
 """Taps that a chunk may hold, so that its arrays stay in the cache at any number of edges."""
@@ -26,8 +28,13 @@ TAPS_AT_ONCE = 2**15
 CHUNKS_AT_ONCE = 4
 """Chunks in a piece of work for a thread."""
 
-Change = Callable[[int, NDArray[np.floating]], None]
-"""`change(index, apart)` replaces the differences n_i - n_j of a chunk, shape (3, pairs, n), in place."""
+LARGEST_MATRIX = 8
+"""Taps up to which the transpose of the differences is a matrix product."""
+
+Change = Callable[[int, NDArray[np.floating]], NDArray[np.floating]]
+"""`change(index, apart)` returns what the differences n_i - n_j of a chunk, shape (3, pairs, n), become.
+
+It may use their memory."""
 
 
 class _Chunk(NamedTuple):
@@ -52,39 +59,48 @@ class FacePairs:
         self._blocks = blocks.sized(CHUNKS_AT_ONCE)
         counts = np.diff(neighbors.offset)
         self.n_faces = len(counts)
-        groups = []
-        for count in np.unique(counts):
-            group = np.flatnonzero(counts == count).astype(np.int32)
-            size = max(1, TAPS_AT_ONCE // (int(count) + 1))
-            groups += [(int(count), part) for part in np.split(group, range(size, len(group), size))]
+        groups = _groups(counts, 1)
         taps = empty_parts([(count + 1, len(part)) for count, part in groups], np.int32)
-        self.chunks: list[_Chunk] = []
-        self._n_slots = 0
-        for (count, part), own in zip(groups, taps, strict=True):
-            own[0] = part
-            own[1:] = neighbors.neighbor[neighbors.offset[part] + np.arange(count)[:, None]]
-            self.chunks.append(_Chunk(own, slice(self._n_slots, self._n_slots + own.size)))
-            self._n_slots += own.size
+        ends = np.cumsum([own.size for own in taps]).tolist()
+        self._n_slots = ends[-1] if ends else 0
+        places = (slice(end - own.size, end) for own, end in zip(taps, ends, strict=True))
+        self.chunks = list(map(_Chunk, taps, places))
+
+        def fill(start: int, stop: int) -> None:
+            for (count, part), own in zip(groups[start:stop], taps[start:stop], strict=True):
+                own[0] = part
+                own[1:] = neighbors.neighbor[neighbors.offset[part] + np.arange(count)[:, None]]
+
+        self._blocks.run(fill, len(groups))
         self._set_sources()
 
     def _set_sources(self) -> None:
         """Find where each face stands among all taps, and the measure."""
         taps = np.concatenate([chunk.taps.ravel() for chunk in self.chunks])
-        weights = np.concatenate([np.full(c.taps.size, 1.0 / len(c.taps)) for c in self.chunks])
-        self.measure = np.bincount(taps, weights, self.n_faces).astype(np.float64)
-        order = stable_order(taps, self.n_faces)
-        counts = np.bincount(taps, minlength=self.n_faces)
+        counts, order = self._blocks.together(
+            lambda: np.bincount(taps, minlength=self.n_faces), lambda: stable_order(taps, self.n_faces)
+        )
+        sizes = {len(chunk.taps) for chunk in self.chunks}
+        # On closed meshes of one kind of faces each is a tap as often as it has taps, and the measure is 1.
+        self._is_even = len(sizes) == 1 and bool((counts == min(sizes)).all())
+        self.measure: NDArray[np.floating] = np.ones(self.n_faces)
+        if not self._is_even:
+            weights = np.concatenate([np.full(c.taps.size, 1.0 / len(c.taps)) for c in self.chunks])
+            self.measure = np.bincount(taps, weights, self.n_faces).astype(np.float64)
         begin = np.cumsum(counts) - counts
-        sources = []
-        for count in np.unique(counts):
-            group = np.flatnonzero(counts == count).astype(np.int32)
-            size = max(1, TAPS_AT_ONCE // int(count))
-            for part in np.split(group, range(size, len(group), size)):
-                sources.append((part, order[begin[part] + np.arange(count)[:, None]]))
-        places = in_one_array([places for _, places in sources], np.int32)
-        self._sources = list(zip((part for part, _ in sources), places, strict=True))
+        groups = _groups(counts, 0)
+        places = empty_parts([(count, len(part)) for count, part in groups], np.int32)
 
-    def visit(self, normals: NDArray[np.floating], use: Change) -> None:
+        def fill(start: int, stop: int) -> None:
+            for (count, part), own in zip(groups[start:stop], places[start:stop], strict=True):
+                np.take(order, begin[part] + np.arange(count)[:, None], out=own, mode="clip")
+
+        self._blocks.run(fill, len(groups))
+        self._sources = list(zip((part for _, part in groups), places, strict=True))
+
+    def visit(
+        self, normals: NDArray[np.floating], use: Callable[[int, NDArray[np.floating]], object]
+    ) -> None:
         """Call a function with the differences n_i - n_j of each chunk, on threads."""
 
         def kernel(start: int, stop: int) -> None:
@@ -102,13 +118,11 @@ class FacePairs:
 
         def use(index: int, apart: NDArray[np.floating]) -> None:
             chunk = self.chunks[index]
-            change(index, apart)
             back = slots[:, chunk.place].reshape(3, *chunk.taps.shape)
-            _add_up(apart, back)
-            back *= slots.dtype.type(1.0 / len(chunk.taps) ** 2)
+            _add_up(change(index, apart), back)
 
         self.visit(normals, use)
-        return Returned(slots, self._sources, self.measure, self._blocks)
+        return Returned(slots, self._sources, None if self._is_even else self.measure, self._blocks)
 
 
 class Returned:
@@ -118,7 +132,7 @@ class Returned:
         self,
         slots: NDArray[np.floating],
         sources: list[tuple[NDArray[np.int32], NDArray[np.int32]]],
-        measure: NDArray[np.float64],
+        measure: NDArray[np.floating] | None,
         blocks: Blocks,
     ) -> None:
         self._slots, self._sources, self._measure, self._blocks = slots, sources, measure, blocks
@@ -131,12 +145,24 @@ class Returned:
                 total = self._slots.take(places, axis=1).sum(axis=1)
                 part = slice(int(faces[0]), int(faces[-1]) + 1)
                 chosen = part if part.stop - part.start == len(faces) else faces
-                measure = self._measure[chosen]
-                if (measure != 1.0).any():
-                    total /= measure.astype(total.dtype)
+                if self._measure is not None:
+                    total /= self._measure[chosen].astype(total.dtype)
                 use(chosen, total)
 
         self._blocks.run(kernel, len(self._sources))
+
+
+def _groups(counts: NDArray[np.integer], n_more: int) -> list[tuple[int, NDArray[np.int32]]]:
+    """Return faces that have as many of something as pairs (count, faces), few enough for the cache.
+
+    Of each face there are `n_more` more than the count.
+    """
+    groups = []
+    for count in np.flatnonzero(np.bincount(counts)).tolist():
+        alike = np.flatnonzero(counts == count).astype(np.int32)
+        size = max(1, TAPS_AT_ONCE // (count + n_more))
+        groups += [(count, part) for part in np.split(alike, range(size, len(alike), size))]
+    return groups
 
 
 def _differences(taps: NDArray[np.floating]) -> NDArray[np.floating]:
@@ -152,17 +178,27 @@ def _differences(taps: NDArray[np.floating]) -> NDArray[np.floating]:
 
 
 def _add_up(apart: NDArray[np.floating], taps: NDArray[np.floating]) -> None:
-    """Set taps, shape (3, k + 1, n), to what the transpose of `_differences` gives."""
+    """Set taps, shape (3, k + 1, n), to what the transpose of `_differences` gives, over (k + 1)^2."""
     n_taps = taps.shape[1]
+    if n_taps <= LARGEST_MATRIX:
+        apply_matrix(_transposed_differences(n_taps).astype(apart.dtype), apart, taps)
+        return
     taps[:, 0] = 0
     begin = 0
     for slot in range(n_taps - 1):
         end = begin + n_taps - 1 - slot
         part = apart[:, begin:end]
+        taps[:, slot] += part.sum(axis=1)
         if slot:
-            taps[:, slot] += part.sum(axis=1)
             taps[:, slot + 1 :] -= part
         else:
-            part.sum(axis=1, out=taps[:, 0])
             np.negative(part, out=taps[:, 1:])
         begin = end
+    taps *= taps.dtype.type(1.0 / n_taps**2)
+
+
+@cache
+def _transposed_differences(n_taps: int) -> NDArray[np.float64]:
+    """Return the matrix, shape (k + 1, pairs), that adds up differences, over (k + 1)^2."""
+    identity = np.broadcast_to(np.eye(n_taps), (3, n_taps, n_taps))
+    return np.ascontiguousarray(_differences(identity)[0].T) / n_taps**2

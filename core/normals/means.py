@@ -51,7 +51,7 @@ class Means:
     def __init__(self, neighborhoods: Ragged, blocks: Blocks, *, is_square: bool) -> None:
         offset, items = neighborhoods
         n_items = len(offset) - 1
-        self._blocks = blocks.sized(CHUNKS_AT_ONCE)
+        self._blocks, self._item_blocks = blocks.sized(CHUNKS_AT_ONCE), blocks
         self._items = np.empty(n_items, np.int32)
 
         def make(start: int, stop: int) -> list[_Chunk]:
@@ -85,11 +85,22 @@ class Means:
 
     def inward(self, field: NDArray) -> NDArray:
         """Return a field of the items, shape (n, ...), as it is numbered inside."""
-        return field.take(self._items, axis=0)
+        return self._taken(field, self._items)
 
     def outward(self, field: NDArray) -> NDArray:
         """Return a field that is numbered as inside, shape (n, ...), as the caller numbers it."""
-        return field.take(self._place, axis=0)
+        return self._taken(field, self._place)
+
+    def _taken(self, field: NDArray, numbers: NDArray[np.int32]) -> NDArray:
+        """Return the entries of a field with some numbers, looked up on threads."""
+        field = np.ascontiguousarray(field)
+        result = np.empty((len(numbers), *field.shape[1:]), field.dtype)
+
+        def kernel(start: int, stop: int) -> None:
+            field.take(numbers[start:stop], axis=0, out=result[start:stop], mode="clip")
+
+        self._item_blocks.run(kernel, len(numbers))
+        return result
 
     def for_parts(self, use: Callable[[slice, NDArray[np.int32]], None]) -> None:
         """Call `use(part, members)` for parts of the items, with their members, shape (K, n), on threads."""

@@ -113,8 +113,8 @@ class _Reweighted:
         self._is_started = [False] * len(pairs.chunks)
         self._factor: list[NDArray[np.floating] | None] = [None] * len(pairs.chunks)
 
-    def __call__(self, index: int, apart: NDArray[np.floating]) -> None:
-        """Shrink a chunk in place; a `Change`."""
+    def __call__(self, index: int, apart: NDArray[np.floating]) -> NDArray[np.floating]:
+        """Return b - 2 b' of a chunk, in the memory of its differences; a `Change`."""
         residual, is_started = self._residual[index], self._is_started[index]
         if is_started:
             apart += residual
@@ -123,16 +123,15 @@ class _Reweighted:
         limit = self._thresholds[index] if factor is None else self._thresholds[index] * factor
         np.maximum(norm, np.maximum(limit, self._smallest), out=norm)
         np.divide(limit, norm, out=norm)
-        apart *= norm
-        if is_started:
-            back = residual - apart
-            back -= apart
-            residual[...] = apart
-            apart[...] = back
-        else:
-            residual[...] = apart
-            apart *= -2
-        self._is_started[index] = True
+        if not is_started:
+            np.multiply(apart, norm, out=residual)
+            self._is_started[index] = True
+            return np.multiply(residual, apart.dtype.type(-2), out=apart)
+        shrunk = apart * norm
+        np.subtract(residual, shrunk, out=apart)
+        apart -= shrunk
+        residual[...] = shrunk
+        return apart
 
     def reweigh(self, index: int, apart: NDArray[np.floating]) -> None:
         """Set the factors of a chunk from its differences, and start afresh; a `Change`."""

@@ -188,7 +188,7 @@ def test_the_face_frame_is_tight(kind, at_once, rng, monkeypatch):
         )
         expected = (high @ normals * slots[:, None])[rows]
         assert np.abs(apart - expected.transpose(2, 1, 0)).max(initial=0) < ROUNDING
-        apart *= factor[rows].transpose(2, 1, 0)
+        return apart * factor[rows].transpose(2, 1, 0)
 
     found = np.full((3, mesh.n_faces), np.nan)
     pairs.returned(normals.T, change).for_faces(
