@@ -52,7 +52,7 @@ class _Start(NamedTuple):
     """What a recipe begins with: smoothed positions, their normals, the noise that is left, pilots."""
 
     points: NDArray[np.floating]  # (3, N)
-    normals: NDArray[np.floating]  # (3, F)
+    normals: NDArray[np.floating] | None  # (3, F); None where they are made again each time
     sample: NDArray[np.floating]  # (N,), for noise of standard deviation 1 before smoothing
     pilots: dict[float, NDArray[np.floating]]
 
@@ -94,6 +94,8 @@ class NormalProblem:
         self.units: dict[int, float] = {}
         """Median differences that the noise makes between neighboring normals, by the averages before."""
         self._starts: dict[int, _Start] = {}
+        self._is_frugal = False
+        """Whether nothing is kept for other recipes that is made again quickly."""
 
     @property
     def neighbors(self) -> Neighbors:
@@ -142,14 +144,18 @@ class NormalProblem:
                 median_difference(little, neighbors, self.blocks) / TINY_STEP,
                 median_difference(normals, neighbors, self.blocks),
             )
-        return _Start(points, normals, sample, {})
+        return _Start(points, None if self._is_frugal else normals, sample, {})
+
+    def _normals_of(self, start: _Start) -> NDArray[np.floating]:
+        """Return the normals, shape (3, F), that a recipe begins with."""
+        return normals_of(start.points, self.surface, self.blocks) if start.normals is None else start.normals
 
     def clean_normals(self, recipe: Recipe, tick: Tick = lambda _: None) -> NDArray[np.floating]:
         """Return unit normals, shape (3, F)."""
         start = self.start(recipe.n_averages)
         if recipe.threshold not in start.pilots:
             start.pilots[recipe.threshold] = pilot_normals(
-                start.normals,
+                self._normals_of(start),
                 self.neighbors,
                 recipe.threshold,
                 0.0,
@@ -159,23 +165,34 @@ class NormalProblem:
             )
             give_back(self.surface.n_faces)
         normals = start.pilots[recipe.threshold]
+        if self._is_frugal:
+            del start.pilots[recipe.threshold]
         for range_sigma in recipe.range_sigmas:
+            weights = self.averages.weights(normals, range_sigma)
+            guides = [normals]
+            del normals  # handed over, so that its memory is free once the fields are made
             cleaned = shrink_inside(
-                partial(self._fields_around, start, normals),
+                partial(self._fields_around, start, guides),
                 self.averages,
-                self.averages.weights(normals, range_sigma),
+                weights,
                 recipe.n_bands,
                 recipe.caution,
                 lambda: tick(0.0),
             )
-            normals = unit_columns(cleaned, start.normals)
+            del weights
+            normals = unit_columns(cleaned, self._normals_of(start))
         return normals
 
-    def _fields_around(self, start: _Start, normals: NDArray[np.floating]) -> NDArray[np.floating]:
-        """Return noisy normals, a sample of the noise in them on a surface with given normals, and these."""
+    def _fields_around(self, start: _Start, guides: list[NDArray[np.floating]]) -> NDArray[np.floating]:
+        """Return noisy normals, a sample of the noise in them on a surface with given normals, and these.
+
+        The latter are taken out of the list.
+        """
+        normals = guides.pop()
         points = self.fitted(start.points, normals, PILOT_VERTEX_STEPS)
         noise = self._noise_in_normals(points, start.sample)
-        fields = self.averages.inward_rows([*start.normals, *noise, *normals])
+        fields = self.averages.inward_rows([*self._normals_of(start), *noise, *normals])
+        del points, noise, normals
         if self.surface.n_faces >= MANY_ITEMS:
             # Made again quickly, and large when memory is needed most.
             del self.fit
@@ -231,6 +248,7 @@ class NormalProblem:
         self, recipes: Sequence[Recipe], constraints: Constraints, tick: Tick = lambda _: None
     ) -> NDArray[np.floating]:
         """Return the mean, shape (3, N), of what recipes give."""
+        self._is_frugal = len(recipes) == 1 and self.surface.n_faces >= MANY_ITEMS
         points = self.run(recipes[0], constraints, tick)
         if len(recipes) > 1:
             points = sum((self.run(recipe, constraints, tick) for recipe in recipes[1:]), points)
