@@ -18,7 +18,7 @@ from ..normals.band_shrinkage import shrink_inside
 from ..normals.centroids import face_centroids
 from ..normals.face_averages import FaceAverages, face_averages
 from ..normals.folds import unfold
-from ..normals.neighbors import edge_neighbors, faces_of_vertices
+from ..normals.neighbors import Ragged, edge_neighbors, faces_of_vertices
 from ..normals.noise_sample import (
     PERIODS,
     area_vectors,
@@ -87,7 +87,6 @@ class NormalProblem:
     ) -> None:
         self.noisy, self.surface, self.blocks, self.sigma = noisy, surface, blocks, sigma
         self._connectivity = connectivity
-        self.at_vertex = faces_of_vertices(surface)
         if sample is None:
             sample = unit_noise(scrambled(noisy, surface, self.at_vertex, sigma, PERIODS, blocks))
         self.sample = sample
@@ -101,6 +100,11 @@ class NormalProblem:
     def neighbors(self) -> Neighbors:
         """The faces across edges; made quickly, and large."""
         return edge_neighbors(self.surface, self._connectivity)
+
+    @cached_property
+    def at_vertex(self) -> Ragged:
+        """The faces at each vertex."""
+        return faces_of_vertices(self.surface, self._connectivity)
 
     @cached_property
     def fit(self) -> VertexFit:
@@ -195,8 +199,8 @@ class NormalProblem:
         del points, noise, normals
         if self.surface.n_faces >= MANY_ITEMS:
             # Made again quickly, and large when memory is needed most.
-            del self.fit
-            self.__dict__.pop("rings", None)
+            for name in ("fit", "rings", "at_vertex"):
+                self.__dict__.pop(name, None)
         give_back(self.surface.n_faces)
         return fields
 

@@ -75,7 +75,7 @@ def normal_filter(
     points = noisy
     steps = 0
     try:
-        at_vertex = faces_of_vertices(surface)
+        at_vertex = faces_of_vertices(surface, connectivity)
         normals = _filtered_normals(noisy, surface, connectivity, at_vertex, settings, blocks, tick)
         fit = VertexFit(surface, at_vertex, blocks).steps(noisy, normals)
         for moved, change in fit.points(settings.vertex_steps, constraints):

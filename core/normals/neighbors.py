@@ -31,8 +31,22 @@ def edge_neighbors(surface: SurfaceMesh, connectivity: Connectivity) -> Neighbor
     return Neighbors(surface.face_offset, across, nothing, nothing)
 
 
-def faces_of_vertices(surface: SurfaceMesh) -> Ragged:
-    """Return the faces at each vertex, ascending; a face that names a vertex twice counts twice."""
+def faces_of_vertices(surface: SurfaceMesh, connectivity: Connectivity | None = None) -> Ragged:
+    """Return the faces at each vertex; a face that names a vertex twice counts twice.
+
+    They are ascending; on manifold meshes with `connectivity`, which is many times faster, in ring order.
+    """
+    if connectivity is not None and not connectivity.is_non_manifold.any():
+        corner, offset = connectivity.ring_corner, connectivity.ring_offset
+        is_there = corner >= 0
+        if not is_there.all():
+            offset = np.concatenate(([0], np.cumsum(is_there)))[offset]
+            corner = corner[is_there]
+        size = surface.common_face_size()
+        if size:
+            return Ragged(offset, corner // np.int32(size))
+        own = np.repeat(np.arange(surface.n_faces, dtype=np.int32), surface.face_sizes())
+        return Ragged(offset, own[corner])
     order = np.argsort(surface.corner_vertex, kind="stable")
     own = np.repeat(np.arange(surface.n_faces, dtype=np.int32), surface.face_sizes())
     counts = np.bincount(surface.corner_vertex, minlength=surface.n_vertices)

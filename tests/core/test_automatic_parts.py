@@ -14,6 +14,7 @@ from framelet.core.normals.means import Means
 from framelet.core.normals.neighbors import Ragged, faces_of_vertices, members_around
 from framelet.core.normals.noise_sample import area_vectors, noise_in_normals, scrambled, vertex_means
 from framelet.core.normals.pilot import unit_columns
+from framelet.core.surface.connectivity import connect
 from framelet.core.surface.geometry import face_area_vectors
 from kinds import ALONE, BLOCKS, KIND, KINDS
 from meshes import MESHES, faces_of, noisy, triangle_torus
@@ -236,3 +237,13 @@ def test_noise_in_normals_is_linear_for_small_noise(rng):
     one, two = (noise_in_normals(mesh.vertices.T, k * amount, mesh, at_vertex, ALONE) for k in (1, 2))
     assert np.abs(two - 2 * one).max() < 1e-9 < np.abs(one).max()
     assert not noise_in_normals(mesh.vertices.T, 0 * amount, mesh, at_vertex, ALONE).any()
+
+
+@pytest.mark.parametrize("name", MESHES)
+def test_faces_of_vertices_are_the_same_from_rings(name):
+    mesh = MESHES[name]()
+    expected, found = faces_of_vertices(mesh), faces_of_vertices(mesh, connect(mesh))
+    assert found.offset.tolist() == expected.offset.tolist()
+    for begin, end in zip(found.offset[:-1], found.offset[1:], strict=True):
+        assert sorted(found.items[begin:end].tolist()) == expected.items[begin:end].tolist()
+    assert found.items.dtype == expected.items.dtype
