@@ -135,10 +135,8 @@ class NormalProblem:
     def _make_start(self, n_averages: int) -> _Start:
         points, sample = self.noisy, self.sample
         if n_averages:
-            points = smooth_positions(points, self.rings, n_averages)
-            heights = np.zeros_like(points)
-            heights[0] = sample
-            sample = smooth_positions(heights, self.rings, n_averages)[0]
+            both = smooth_positions(np.concatenate((points, sample[None])), self.rings, n_averages)
+            points, sample = both[:3], both[3]
         normals = normals_of(points, self.surface, self.blocks)
         if n_averages not in self.units:
             neighbors = self.neighbors
@@ -263,8 +261,9 @@ class NormalProblem:
 
     def _normals_around(self, points: NDArray[np.floating]) -> NDArray[np.floating]:
         """Return, for each face, the mean normal of the faces around its corners, shape (3, F)."""
-        at_corners = vertex_means(area_vectors(points, self.surface), self.at_vertex)
-        around = face_centroids(at_corners, self.surface)
+        areas = area_vectors(points, self.surface, self.blocks)
+        at_corners = vertex_means(areas, self.at_vertex, self.blocks)
+        around = face_centroids(at_corners, self.surface, self.blocks)
         return unit_columns(around, np.zeros_like(around))
 
     def _ring_mean(self, points: NDArray[np.floating]) -> NDArray[np.floating]:

@@ -62,8 +62,8 @@ def smooth_positions(
 
     Parameters
     ----------
-    noisy : ndarray, shape (3, N)
-        Noisy positions; not modified.
+    noisy : ndarray, shape (3, N) or (4, N)
+        Noisy positions, and maybe another number for each vertex; not modified.
     rings : RingAverages
         Vertices around vertices.
     n_averages : int
@@ -71,7 +71,7 @@ def smooth_positions(
 
     Returns
     -------
-    ndarray, shape (3, N)
+    ndarray of the same shape
 
     Notes
     -----
@@ -113,7 +113,7 @@ def smooth_positions(
 
         rings.visit(current, step)
         before, current = current, following
-    return noisy + rings.outward(change)[:, :3].T
+    return noisy + rings.outward(change)[:, : len(noisy)].T
 
 
 @cache
@@ -142,4 +142,4 @@ def _step_by_step(noisy: NDArray[np.floating], rings: RingAverages, n_averages: 
             low = mean
         smooth += low
         missing = missing - low
-    return np.ascontiguousarray(rings.outward(smooth)[:, :3].T)
+    return np.ascontiguousarray(rings.outward(smooth)[:, : len(noisy)].T)

@@ -123,7 +123,7 @@ def face_averages(
     blocks: Blocks,
 ) -> FaceAverages:
     """Return averages for faces at positions (3, N): spatial weights are as wide as neighbors are apart."""
-    centroids = face_centroids(points, surface)
+    centroids = face_centroids(points, surface, blocks)
     distance = neighbor_distances(centroids, neighbors, blocks)
     distance = distance[distance > 0]
     spatial_sigma = float(distance.mean()) if len(distance) else 1.0

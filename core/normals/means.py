@@ -140,7 +140,7 @@ class Means:
 
 
 def padded(rows: NDArray[np.floating]) -> NDArray[np.floating]:
-    """Return vectors in columns, shape (3, n), as rows with a fourth number 0, shape (n, 4)."""
+    """Return vectors in columns, shape (3, n) or (4, n), as rows, shape (n, 4); a fourth number is 0."""
     result = np.zeros((rows.shape[1], 4), rows.dtype)
-    result[:, :3] = rows.T
+    result[:, : len(rows)] = rows.T
     return result

@@ -106,7 +106,7 @@ def scrambled(
     """
     normals = vertex_means(area_vectors(points, surface, blocks), at_vertex, blocks)
     normals = unit_columns(normals, np.zeros_like(normals))
-    arm = points - vertex_means(face_centroids(points, surface), at_vertex, blocks)
+    arm = points - vertex_means(face_centroids(points, surface, blocks), at_vertex, blocks)
     height = np.einsum("cn,cn->n", arm, normals)
     wave = height * points.dtype.type(periods / sigma) + points.dtype.type(0.25)
     return points.dtype.type(2) * np.abs(wave - np.rint(wave))

@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 from checks import assert_same_bits, lengths
 from framelet.core import SurfaceMesh
+from framelet.core.automatic.patches import _nearest
 from framelet.core.automatic.problem import unit_noise
+from framelet.core.automatic.smooth_positions import RingAverages, smooth_positions
 from framelet.core.normals.averages import Averages, Members
 from framelet.core.normals.band_shrinkage import LEFT_OUT, _averaged_often, _power_series, shrink_bands
 from framelet.core.normals.face_averages import FaceAverages
@@ -247,3 +249,27 @@ def test_faces_of_vertices_are_the_same_from_rings(name):
     for begin, end in zip(found.offset[:-1], found.offset[1:], strict=True):
         assert sorted(found.items[begin:end].tolist()) == expected.items[begin:end].tolist()
     assert found.items.dtype == expected.items.dtype
+
+
+@pytest.mark.parametrize("n_faces", [1, 40, 700, 3000])
+def test_the_nearest_faces_match_a_sort(n_faces, rng):
+    """Also where most are far off, or equally far."""
+    crowded = rng.normal(size=(3, 3000)) ** 3
+    for centroids in (crowded, np.round(crowded), np.zeros((3, 3000))):
+        for seed in (0, 7, 2999):
+            distance = ((centroids - centroids[:, seed, None]) ** 2).sum(axis=0)
+            farthest = np.sort(distance)[n_faces - 1]
+            near, found = _nearest(centroids, seed, n_faces)
+            assert near.tolist() == np.flatnonzero(distance <= farthest).tolist()
+            assert found.tolist() == distance[near].tolist()
+
+
+def test_a_fourth_number_is_smoothed_like_a_coordinate(rng):
+    mesh = triangle_torus(8, 14)
+    rings = RingAverages(connect(mesh), ALONE)
+    heights = rng.normal(size=(1, mesh.n_vertices))
+    points = mesh.vertices.T.copy()
+    both = smooth_positions(np.concatenate((points, heights)), rings, 4)
+    assert_same_bits(both[:3], smooth_positions(points, rings, 4))
+    assert_same_bits(both[3], smooth_positions(np.concatenate((heights, points[:2])), rings, 4)[0])
+    assert np.abs(both[3] - heights).max() > 0.1
