@@ -175,32 +175,32 @@ class Averages:
         """Call `kernel(start, stop)` for ranges of the items, numbered as inside, on threads."""
         self._item_blocks.run(kernel, len(self._items))
 
-    def go_on(self, weights: Weights, field: NDArray[np.floating], before: NDArray[np.floating]) -> None:
-        """Replace the field before by 2 A field - before, in place, as Chebyshev polynomials go on."""
-        self.following(weights, field, before, before)
-
-    def following(
+    def go_on(
         self,
         weights: Weights,
         field: NDArray[np.floating],
         before: NDArray[np.floating],
-        out: NDArray[np.floating] | None = None,
-    ) -> NDArray[np.floating]:
-        """Return 2 A field - before, by default in new memory; all are numbered as inside, shape (n, C)."""
-        result = np.empty_like(before) if out is None else out
-        old, new = (values.reshape(-1, TILE, before.shape[1]) for values in (before, result))
+        out: NDArray[np.floating],
+        use: Callable[[int, int], None] = lambda start, stop: None,
+    ) -> None:
+        """Set `out` to 2 A field - before, as Chebyshev polynomials go on; it may be the field before.
+
+        All are numbered as inside, shape (n, C). `use(start, stop)` is called on threads for ranges of items,
+        while what was set for them is in the cache.
+        """
+        old, new = (values.reshape(-1, TILE, before.shape[1]) for values in (before, out))
 
         def kernel(start: int, stop: int) -> None:
             for (begin, members, _), weight in zip(
                 self._chunks[start:stop], weights[start:stop], strict=True
             ):
-                part = slice(begin, begin + len(members))
+                end = begin + len(members)
                 means = np.matmul(weight, field.take(members, axis=0))
                 means *= 2
-                np.subtract(means, old[part], out=new[part])
+                np.subtract(means, old[begin:end], out=new[begin:end])
+                use(TILE * begin, TILE * end)
 
         self._blocks.run(kernel, len(self._chunks))
-        return result
 
     def average(self, weights: Weights, field: NDArray[np.floating]) -> NDArray[np.floating]:
         """Return the averages of a field; both are numbered as inside, shape (n, C)."""

@@ -151,19 +151,28 @@ def _averaged_often(
     total = _times(series[0], fields[:, :_N], averages)
     energies = _times(exact[0], fields[:, _N:], averages)
     before, current = fields, averages.average(weights, fields)
-    for degree in range(1, max(len(exact), len(series))):
-        if degree == 2:
-            before, current = current, averages.following(weights, current, before)
-        elif degree > 2:
-            averages.go_on(weights, current, before)
-            before, current = current, before
-        if degree < len(series):
-            _add_times(series[degree], current[:, :_N], total, averages)
-        if degree <= WIDEST:
-            _add_times(exact[degree], current[:, _N:], energies, averages)
+    _add_times(series[1], current[:, :_N], total, averages)
+    _add_times(exact[1], current[:, _N:], energies, averages)
+    for degree in range(2, max(len(exact), len(series))):
+        following = np.empty_like(before) if degree == 2 else before
+
+        def add(
+            start: int,
+            stop: int,
+            degree: int = degree,
+            new: NDArray[np.floating] = following,
+            energies: NDArray[np.floating] = energies,
+        ) -> None:
+            if degree < len(series) and series[degree]:
+                total[start:stop] += total.dtype.type(series[degree]) * new[start:stop, :_N]
+            if degree <= WIDEST and exact[degree]:
+                energies[start:stop] += total.dtype.type(exact[degree]) * new[start:stop, _N:]
+
+        averages.go_on(weights, current, before, following, add)
+        before, current = current, following
         if degree == WIDEST:
             settle(energies)
-            del energies
+            energies = np.empty_like(energies[:0])  # so that its memory is free
     return total
 
 

@@ -149,8 +149,10 @@ def _lengths(vectors: NDArray[np.floating]) -> NDArray[np.floating]:
 
 def unit_columns(vectors: NDArray[np.floating], fallback: NDArray[np.floating]) -> NDArray[np.floating]:
     """Return vectors, shape (3, n), scaled to length one; where there is no direction, the fallback."""
-    length = np.sqrt(vectors[0] ** 2 + vectors[1] ** 2 + vectors[2] ** 2)
+    length = _lengths(vectors)
     good = length > np.finfo(vectors.dtype).tiny
+    if good.all():
+        return vectors / length
     return np.where(good, vectors / np.where(good, length, 1), fallback)
 
 
