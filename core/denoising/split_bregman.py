@@ -91,6 +91,7 @@ def split_bregman(
             block *= damping
 
         blocks.run(update, noisy.shape[1])
+        del change, update  # their memory is needed by the next iteration
         constraints.apply(moved, noisy)
         motion = rms_motion(moved, current, blocks)
         current, moved = moved, current

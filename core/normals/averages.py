@@ -27,10 +27,10 @@ TILE = 8
 TILES_IN_BLOCK = 8192
 """Tiles that are made together and sorted by the number of their members."""
 
-MEMBERS_AT_ONCE = 2**14
+MEMBERS_AT_ONCE = 2**15
 """Members that a chunk may look up, so that their values stay in the cache."""
 
-CHUNKS_AT_ONCE = 8
+CHUNKS_AT_ONCE = 4
 """Chunks in a piece of work for a thread."""
 
 ITEMS_AT_ONCE = 2**14
