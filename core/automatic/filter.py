@@ -106,6 +106,7 @@ def automatic_filter(
             blocks,
             lambda share: advance(CHOOSING_SHARE * share),
             strength=settings.strength,
+            is_impulsive=noise.is_impulsive,
         )
         step = (1.0 - CHOOSING_SHARE) / n_ticks(recipes)
         problem = NormalProblem(noisy, surface, connectivity, sigma, blocks)

@@ -32,7 +32,8 @@ from ..normals.vertex_fit import VertexFit
 from ..surface.connectivity import Connectivity
 from ..surface.surface_mesh import SurfaceMesh
 from ..transform.adaptive_level import Neighbors
-from .recipes import Recipe
+from .position_bands import shrink_positions
+from .recipes import PILOTS, Recipe
 from .smooth_positions import RingAverages, smooth_positions
 
 PILOT_VERTEX_STEPS = 8
@@ -93,6 +94,7 @@ class NormalProblem:
         self.units: dict[int, float] = {}
         """Median differences that the noise makes between neighboring normals, by the averages before."""
         self._starts: dict[int, _Start] = {}
+        self._pilots: dict[Recipe, NDArray[np.floating]] = {}
         self._is_frugal = False
         """Whether nothing is kept for other recipes that is made again quickly."""
 
@@ -155,6 +157,8 @@ class NormalProblem:
     def clean_normals(self, recipe: Recipe, tick: Tick = lambda _: None) -> NDArray[np.floating]:
         """Return unit normals, shape (3, F)."""
         start = self.start(recipe.n_averages)
+        if recipe.n_rounds:
+            return self._averaged_in_rounds(recipe, self._normals_of(start), tick)
         if recipe.threshold not in start.pilots:
             start.pilots[recipe.threshold] = pilot_normals(
                 self._normals_of(start),
@@ -183,6 +187,17 @@ class NormalProblem:
             )
             del weights
             normals = unit_columns(cleaned, self._normals_of(start))
+        return normals
+
+    def _averaged_in_rounds(
+        self, recipe: Recipe, normals: NDArray[np.floating], tick: Tick
+    ) -> NDArray[np.floating]:
+        """Return unit normals, shape (3, F), after averages with weights that are made again each time."""
+        self.start(0)  # the unit is that of the noisy normals, smoothed or not
+        width = recipe.range_units * self.units[0]
+        for _ in range(recipe.n_rounds):
+            normals = self.averages.smooth(normals, self.averages.weights(normals, width), 1)
+            tick(0.0)
         return normals
 
     def _fields_around(self, start: _Start, guides: list[NDArray[np.floating]]) -> NDArray[np.floating]:
@@ -229,21 +244,39 @@ class NormalProblem:
         is_unfolded: bool = True,
     ) -> NDArray[np.floating]:
         """Return denoised positions, shape (3, N), if asked for without folds as far as possible."""
-        if recipe.range_sigmas:
+        if recipe.is_refined:
+            points, normals = self._refined(recipe, tick), None
+        elif recipe.range_sigmas or recipe.n_rounds:
             normals = self.clean_normals(recipe, tick)
             start = self.start(recipe.n_averages).points
             points = self.fitted(start, normals, recipe.vertex_steps, constraints, tick)
         else:
-            points = self.start(recipe.n_averages).points
+            points, normals = self.start(recipe.n_averages).points, None
             if constraints is not None:
                 points = points.copy()  # others start from them, where nothing is held yet
             tick(0.0)
-            normals = self._normals_around(points)
         if not is_unfolded:
+            pilot = recipe._replace(label="")
+            if constraints is None and pilot in PILOTS and self.surface.n_faces < MANY_ITEMS:
+                self._pilots[pilot] = points
             return points
+        if normals is None:
+            normals = self._normals_around(points)
         points = unfold(points, normals, self.surface, self._ring_mean)
         if constraints is not None:
             constraints.apply(points, self.noisy)
+        return points
+
+    def _refined(self, recipe: Recipe, tick: Tick) -> NDArray[np.floating]:
+        """Return positions, shape (3, N), whose bands are shrunk by those of what the rest of a recipe gives."""
+        if recipe.pilot in self._pilots:
+            pilot = self._pilots[recipe.pilot]
+        else:
+            pilot = self.run(recipe.pilot, None, tick, is_unfolded=False)
+        at_vertices = vertex_means(area_vectors(pilot, self.surface, self.blocks), self.at_vertex, self.blocks)
+        directions = unit_columns(at_vertices, np.zeros_like(at_vertices))
+        points = shrink_positions(self.noisy, self.sigma * self.sample, pilot, directions, self.rings)
+        tick(0.0)
         return points
 
     def run_all(

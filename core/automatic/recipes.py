@@ -13,10 +13,17 @@ from ..normals.pilot import ITERATIONS
 class Recipe(NamedTuple):
     """Parameters of a run.
 
-    Positions are filtered by a low-pass of `n_averages` first, if it is not 0. What follows works on normals:
-    `threshold` is the pilot's, in units of the median difference that the noise makes between neighboring
-    normals. There is a pass of shrinkage for each of `range_sigmas`; without any, the low-pass is all there
-    is. `caution` is explained in `normals.band_shrinkage`.
+    Positions are filtered by a low-pass of `n_averages` first, if it is not 0. What follows works on normals, in
+    one of two ways.
+
+    - `range_sigmas`: from a pilot, whose `threshold` is in units of the median difference that the noise makes
+      between neighboring normals, there is a pass of shrinkage for each of them. `caution` is explained in
+      `normals.band_shrinkage`.
+    - `n_rounds`: averages over the faces around, each with weights from the one before it, whose width
+      `range_units` is in the same units.
+
+    Without either, the low-pass is all there is. At last, if `is_refined`, the result is the pilot by which
+    bands of the noisy positions are shrunk.
     """
 
     label: str
@@ -26,6 +33,24 @@ class Recipe(NamedTuple):
     n_bands: int = 0
     vertex_steps: int = 0
     n_averages: int = 0
+    n_rounds: int = 0
+    range_units: float = 0.0
+    is_refined: bool = False
+
+    @property
+    def pilot(self) -> Recipe:
+        """What a refined recipe takes its pilot from."""
+        return self._replace(label="", is_refined=False)
+
+    @property
+    def is_low_pass(self) -> bool:
+        """Whether the low-pass of positions is all there is."""
+        return not (self.range_sigmas or self.n_rounds or self.is_refined)
+
+    @property
+    def is_quick(self) -> bool:
+        """Whether the recipe serves large meshes: the other ones make weights, or wide bands, many times."""
+        return not self.n_rounds and not self.is_refined
 
 
 _FLAT = Recipe("Flat and sharp", 0.12, (0.4, 0.3), 1.5, 7, 50)
@@ -43,19 +68,40 @@ def _after(n_averages: int, *recipes: Recipe) -> list[Recipe]:
     ]
 
 
+def _crisp(range_units: float, n_rounds: int) -> Recipe:
+    label = f"Crisp edges {range_units:g} {n_rounds}"
+    return Recipe(label, vertex_steps=10, n_rounds=n_rounds, range_units=range_units)
+
+
+def _low_pass(n_averages: int) -> Recipe:
+    return Recipe(f"Smooth and coarse {n_averages}", n_averages=n_averages)
+
+
+def _soft(*recipes: Recipe) -> list[Recipe]:
+    return [r._replace(label=f"Soft {r.label}", is_refined=True) for r in recipes]
+
+
 RECIPES = (
     *(_FLAT, _SHARP, _ROUND, _FINE),
     *_after(4, _FLAT, _EVEN, _SHARP, _FINE),
     *_after(8, _EVEN, _FINE),
     *_after(16, _EVEN, _FINE),
-    *(Recipe(f"Smooth and coarse {k}", n_averages=k) for k in (8, 32, 64, 128)),
+    *map(_low_pass, (8, 24, 32, 64, 128, 192)),
+    *(_crisp(0.9, 4), _crisp(1.3, 16), _crisp(0.9, 32), _crisp(2.0, 8)),
+    *_after(4, _crisp(0.6, 4), _crisp(0.6, 32), _crisp(1.3, 16)),
+    *_soft(_FINE, *_after(4, _FINE), *_after(8, _FINE), *_after(16, _FINE), _low_pass(32)),
 )
 """For weak to strong noise and, within each of these groups, from machine parts to organic shapes."""
+
+PILOTS = frozenset(recipe.pilot for recipe in RECIPES if recipe.is_refined)
 
 
 def n_ticks(recipes: Sequence[Recipe]) -> int:
     """Return how often running recipes one after the other calls `tick`; they share pilots that are alike."""
     on_normals = [recipe for recipe in recipes if recipe.range_sigmas]
     n_pilots = len({(recipe.n_averages, recipe.threshold) for recipe in on_normals})
-    others = (len(recipe.range_sigmas) * recipe.n_bands + recipe.vertex_steps for recipe in on_normals)
-    return n_pilots * ITERATIONS + sum(others) + len(recipes) - len(on_normals)
+    total = n_pilots * ITERATIONS
+    for recipe in recipes:
+        steps = len(recipe.range_sigmas) * recipe.n_bands + recipe.n_rounds + recipe.vertex_steps
+        total += (steps or 1) + recipe.is_refined
+    return total

@@ -8,6 +8,7 @@ by shape as by noise, and positions, which are one number less differentiated, s
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from functools import cache
 from typing import Any
 
@@ -25,6 +26,9 @@ ORDER = 5
 
 _LEFT_OUT = 8.0
 """Terms of the series that are left out sum up to less than so many units of rounding."""
+
+_POWER_LEFT_OUT = 0.003
+"""The same for `often_averaged`, as a share: energies need no digits."""
 
 
 class RingAverages(Means):
@@ -84,36 +88,75 @@ def smooth_positions(
     width sqrt(k m), so that a fifth of the steps is enough for k = 64. It is applied to P x - x, which is
     small, so that single precision does. Elsewhere, the averages are taken one by one.
     """
-    if not rings.is_symmetric:
-        return _step_by_step(noisy, rings, n_averages)
-    points = rings.inward(padded(noisy))
-    before = rings.mean(points)
-    before -= points
-    coefficients = [noisy.dtype.type(c) for c in _series(n_averages, float(np.finfo(noisy.dtype).eps))]
-    change = coefficients[0] * before
-    current = before
-    for degree, coefficient in enumerate(coefficients[1:], 1):
-        following = np.empty_like(before) if degree == 1 else before
-
-        def step(
-            part: slice,
-            means: NDArray[np.floating],
-            before: NDArray[np.floating] = before,
-            following: NDArray[np.floating] = following,
-            degree: int = degree,
-            coefficient: np.floating = coefficient,
-        ) -> None:
-            # T_1 = P T_0, T_(j + 1) = 2 P T_j - T_(j - 1), which may take the place of the latter.
-            if degree > 1:
-                means *= 2
-                means -= before[part]
-            following[part] = means
-            means *= coefficient
-            change[part] += means
-
-        rings.visit(current, step)
-        before, current = current, following
+    (change,) = low_pass_changes(rings.inward(padded(noisy)), rings, (n_averages,))
     return noisy + rings.outward(change)[:, : len(noisy)].T
+
+
+def low_pass_changes(
+    fields: NDArray[np.floating], rings: RingAverages, numbers: Sequence[int]
+) -> list[NDArray[np.floating]]:
+    """Return what low-passes change of fields, for several numbers of averages at the cost of the largest.
+
+    Fields and changes have shape (n, C) and are numbered as inside `rings`. See `smooth_positions`.
+    """
+    if not rings.is_symmetric:
+        return [_step_by_step(fields, rings, number) - fields for number in numbers]
+    first = rings.mean(fields)
+    first -= fields
+    eps = float(np.finfo(fields.dtype).eps)
+    return _chebyshev_sums(first, rings, [_series(number, eps) for number in numbers])
+
+
+def often_averaged(fields: NDArray[np.floating], rings: RingAverages, n_averages: int) -> NDArray[np.floating]:
+    """Return A^k of fields, shape (n, C), for smoothing: the smallest terms of the series are left out."""
+    if not rings.is_symmetric:
+        for _ in range(n_averages):
+            fields = _half_way(fields, rings)
+        return fields
+    return _chebyshev_sums(fields, rings, [_power_series(n_averages)])[0]
+
+
+def _chebyshev_sums(
+    first: NDArray[np.floating], rings: RingAverages, series: Sequence[Sequence[float]]
+) -> list[NDArray[np.floating]]:
+    """Return sums of c_j T_j(P) x, for several series of coefficients c_j; x may be used up."""
+    dtype = first.dtype.type
+    sums = [dtype(coefficients[0]) * first for coefficients in series]
+    before = current = first
+    for degree in range(1, max(map(len, series))):
+        following = np.empty_like(before) if degree == 1 else before
+        terms = [
+            (total, dtype(coefficients[degree]))
+            for total, coefficients in zip(sums, series, strict=True)
+            if degree < len(coefficients)
+        ]
+        rings.visit(current, _chebyshev_step(before, following, terms, is_first=degree == 1))
+        before, current = current, following
+    return sums
+
+
+def _chebyshev_step(
+    before: NDArray[np.floating],
+    following: NDArray[np.floating],
+    terms: Sequence[tuple[NDArray[np.floating], np.floating]],
+    *,
+    is_first: bool,
+) -> Callable[[slice, NDArray[np.floating]], None]:
+    """Return what makes the next polynomial of the means, and adds it to sums with their coefficients."""
+
+    def step(part: slice, means: NDArray[np.floating]) -> None:
+        # T_1 = P T_0, T_(j + 1) = 2 P T_j - T_(j - 1), which may take the place of the latter.
+        if not is_first:
+            means *= 2
+            means -= before[part]
+        following[part] = means
+        for total, coefficient in terms[1:]:
+            total[part] += coefficient * means
+        total, coefficient = terms[0]
+        means *= coefficient
+        total[part] += means
+
+    return step
 
 
 @cache
@@ -124,22 +167,39 @@ def _series(n_averages: int, eps: float) -> list[float]:
         powers = (0.5 * (1.0 + p)) ** np.arange(n_averages + 1)[:, None]
         return 0.5 * (1.0 - powers[-1]) ** (ORDER - 1) * powers[:-1].sum(axis=0)
 
-    coefficients = chebyshev.chebinterpolate(g, ORDER * n_averages - 1)
-    left_out = np.cumsum(np.abs(coefficients[::-1]))[::-1]
-    return [float(c) for c in coefficients[left_out > _LEFT_OUT * eps]]
+    return _without_tail(chebyshev.chebinterpolate(g, ORDER * n_averages - 1), _LEFT_OUT * eps)
 
 
-def _step_by_step(noisy: NDArray[np.floating], rings: RingAverages, n_averages: int) -> NDArray[np.floating]:
-    """Return what `smooth_positions` returns, by as many averages as there are in the formula."""
-    missing = rings.inward(padded(noisy))
-    smooth = np.zeros_like(missing)
+@cache
+def _power_series(n_averages: int) -> list[float]:
+    """Return the Chebyshev coefficients of ((1 + p) / 2)^k, the small ones left out, with sum 1."""
+    found = chebyshev.chebinterpolate(lambda p: (0.5 * (1.0 + p)) ** n_averages, n_averages)
+    kept = np.array(_without_tail(found, _POWER_LEFT_OUT))
+    return list(map(float, kept / kept.sum()))
+
+
+def _without_tail(coefficients: NDArray[np.float64], left_out: float) -> list[float]:
+    """Return coefficients without those at the end whose absolute values sum up to no more than that."""
+    tails = np.cumsum(np.abs(coefficients[::-1]))[::-1]
+    return [float(c) for c in coefficients[tails > left_out]]
+
+
+def _half_way(fields: NDArray[np.floating], rings: RingAverages) -> NDArray[np.floating]:
+    """Return A of fields, half of each vertex and half of the mean of its ring."""
+    mean = rings.mean(fields)
+    mean += fields
+    mean *= fields.dtype.type(0.5)
+    return mean
+
+
+def _step_by_step(fields: NDArray[np.floating], rings: RingAverages, n_averages: int) -> NDArray[np.floating]:
+    """Return low-passed fields by as many averages as there are in the formula."""
+    missing = fields
+    smooth = np.zeros_like(fields)
     for _ in range(ORDER):
         low = missing
         for _ in range(n_averages):
-            mean = rings.mean(low)
-            mean += low
-            mean *= noisy.dtype.type(0.5)
-            low = mean
+            low = _half_way(low, rings)
         smooth += low
         missing = missing - low
-    return np.ascontiguousarray(rings.outward(smooth)[:, : len(noisy)].T)
+    return smooth
