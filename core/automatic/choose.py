@@ -29,7 +29,7 @@ SMOOTHNESS = (0.5, 0.25)
 """Powers of the two measures of roughness that risks are multiplied by for a first choice."""
 
 REHEARSED = (0.67, 0.2, 0.2, 1.0)
-"""Powers of risk, of the two measures of roughness, and of the angle of the rehearsal, for the last choice."""
+"""Powers of the risk, of two measures of roughness, and of the rehearsed angle, for the last choice."""
 
 N_PAIRED = 14
 """Recipes, the best ones alone, that are rehearsed and whose pairs are looked at."""
@@ -38,8 +38,8 @@ TINY_ROUGHNESS = 1e-4
 """Differences of normals below this are rounding."""
 
 PAIRED_UP_TO = 500_000
-"""Faces up to which two recipes may be run and averaged, and slow ones run; the time of larger meshes is better
-spent on one."""
+"""Faces up to which two recipes may be run and averaged, and slow ones run; the time of larger meshes is
+better spent on one."""
 
 Choice = tuple[int, ...]
 """Numbers of recipes whose results are averaged."""
@@ -88,8 +88,8 @@ def choose_recipes(
     little about roughness, which is what people see. Estimates below zero say that the noise was estimated
     too strong; all are raised by as much.
 
-    What is best by that is a first choice. Its result gets noise once more, and the recipes are rehearsed on it:
-    there their angles are known. The last choice weighs all of it.
+    What is best by that is a first choice. Its result gets noise once more, and the recipes are rehearsed on
+    it: there their angles are known. The last choice weighs all of it.
 
     Two results whose errors differ are better on average than each of them. The risk of a mean of two results
     needs no further run.
@@ -124,7 +124,7 @@ def choose_recipes(
     choices: list[Choice] = [(index,) for index in best]
     judged = judged[np.sort(order)]
     if not is_large and len(best) > 1:
-        pairs = list(combinations(best, 2))
+        pairs: list[Choice] = list(combinations(best, 2))
         choices, judged = choices + pairs, np.concatenate((judged, judge(pairs)))
     first = choices[int(np.argmin(scores(judged, strength=strength)))]
     rehearsal = Rehearsal(trial, trial.ground_mean_of(first), is_impulsive=is_impulsive)

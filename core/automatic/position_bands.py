@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Bands of positions, shrunk by the gains of an empirical Wiener filter.
 
-The low-passes L_k of `smooth_positions`, with k = 1, 2, 4, ..., split positions into bands L_k - L_2k, which sum up
-to the noisy positions with the last low-pass. A smooth shape leaves next to nothing in them, as L_k keeps it up to
-the fifth power of what an average takes away; so what a band holds is detail and noise, and the two can be told
-apart by their energies.
+The low-passes L_k of `smooth_positions`, with k = 1, 2, 4, ..., split positions into bands L_k - L_2k, which
+sum up to the noisy positions with the last low-pass. A smooth shape leaves next to nothing in them, as L_k
+keeps it up to the fifth power of what an average takes away; so what a band holds is detail and noise, which
+can be told apart by their energies.
 """
 
 from __future__ import annotations
@@ -56,9 +56,9 @@ def shrink_positions(
 
     Notes
     -----
-    The gain of a band is E^2 / (E^2 + (`CAUTION` N)^2), with the local energies E of the pilot's band along the
-    normals and N of the sample's. Of the pilot only what is along the normals counts, since where vertices are
-    within the surface says nothing about the shape.
+    The gain of a band is E^2 / (E^2 + (`CAUTION` N)^2), with the local energies E of the pilot's band along
+    the normals and N of the sample's. Of the pilot only what is along the normals counts, since where the
+    vertices are within the surface says nothing about the shape.
     """
     dtype = noisy.dtype
     given, of_pilot = padded(noisy), padded(pilot)

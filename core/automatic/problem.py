@@ -268,12 +268,14 @@ class NormalProblem:
         return points
 
     def _refined(self, recipe: Recipe, tick: Tick) -> NDArray[np.floating]:
-        """Return positions, shape (3, N), whose bands are shrunk by those of what the rest of a recipe gives."""
+        """Return positions, shape (3, N), whose bands are shrunk by those of what the recipe gives else."""
         if recipe.pilot in self._pilots:
             pilot = self._pilots[recipe.pilot]
         else:
             pilot = self.run(recipe.pilot, None, tick, is_unfolded=False)
-        at_vertices = vertex_means(area_vectors(pilot, self.surface, self.blocks), self.at_vertex, self.blocks)
+        at_vertices = vertex_means(
+            area_vectors(pilot, self.surface, self.blocks), self.at_vertex, self.blocks
+        )
         directions = unit_columns(at_vertices, np.zeros_like(at_vertices))
         points = shrink_positions(self.noisy, self.sigma * self.sample, pilot, directions, self.rings)
         tick(0.0)

@@ -13,12 +13,12 @@ from ..normals.pilot import ITERATIONS
 class Recipe(NamedTuple):
     """Parameters of a run.
 
-    Positions are filtered by a low-pass of `n_averages` first, if it is not 0. What follows works on normals, in
-    one of two ways.
+    Positions are filtered by a low-pass of `n_averages` first, if it is not 0. What follows works on normals,
+    in one of two ways.
 
-    - `range_sigmas`: from a pilot, whose `threshold` is in units of the median difference that the noise makes
-      between neighboring normals, there is a pass of shrinkage for each of them. `caution` is explained in
-      `normals.band_shrinkage`.
+    - `range_sigmas`: from a pilot, whose `threshold` is in units of the median difference that the noise
+      makes between neighboring normals, there is a pass of shrinkage for each of them. `caution` is explained
+      in `normals.band_shrinkage`.
     - `n_rounds`: averages over the faces around, each with weights from the one before it, whose width
       `range_units` is in the same units.
 

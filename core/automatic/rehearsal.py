@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A rehearsal: noise is put on a surface that is known, and recipes show how near they get to it.
 
-The surface is a first result on the mesh itself, so that it has about the creases, the curvature and the triangles
-of the clean one. What a recipe does there to angles between faces, which is what people see, is measured, not
+The surface is a first result on the mesh itself, so that it has about the creases, the curvature and the
+triangles of the clean one. What a recipe does there to the normals, which is what people see, need not be
 estimated.
 """
 
@@ -25,8 +25,8 @@ HIT_PERIODS = 241.0
 """Those of the digits that tell which vertices impulsive noise hits."""
 
 FURTHER = 1.137
-"""Factor on the periods for each further draw. Were it a summand, sums of two periods of different draws would
-be alike, and so would be the draws."""
+"""Factor on the periods for each further draw. Were it a summand, sums of two periods of different draws
+would be alike, and so would be the draws."""
 
 
 class Rehearsal:
@@ -62,7 +62,9 @@ class Rehearsal:
         digits = [trial.scrambled(periods * other) for periods in NOISE_PERIODS]
         dtype = digits[0].dtype.type
         # The variance of a number that is spread evenly from 0 to 1 is 1 / 12.
-        amount = (sum(digits) - dtype(0.5 * len(digits))) * dtype(trial.sigma * (12.0 / len(digits)) ** 0.5)
+        amount: NDArray[np.floating] = np.sum(digits, axis=0)
+        amount -= dtype(0.5 * len(digits))
+        amount *= dtype(trial.sigma * (12.0 / len(digits)) ** 0.5)
         if is_impulsive:
             amount *= trial.scrambled(HIT_PERIODS * other) < 0.5
             amount *= dtype(2.0**0.5)

@@ -107,7 +107,9 @@ def low_pass_changes(
     return _chebyshev_sums(first, rings, [_series(number, eps) for number in numbers])
 
 
-def often_averaged(fields: NDArray[np.floating], rings: RingAverages, n_averages: int) -> NDArray[np.floating]:
+def often_averaged(
+    fields: NDArray[np.floating], rings: RingAverages, n_averages: int
+) -> NDArray[np.floating]:
     """Return A^k of fields, shape (n, C), for smoothing: the smallest terms of the series are left out."""
     if not rings.is_symmetric:
         for _ in range(n_averages):
@@ -173,9 +175,12 @@ def _series(n_averages: int, eps: float) -> list[float]:
 @cache
 def _power_series(n_averages: int) -> list[float]:
     """Return the Chebyshev coefficients of ((1 + p) / 2)^k, the small ones left out, with sum 1."""
-    found = chebyshev.chebinterpolate(lambda p: (0.5 * (1.0 + p)) ** n_averages, n_averages)
-    kept = np.array(_without_tail(found, _POWER_LEFT_OUT))
-    return list(map(float, kept / kept.sum()))
+
+    def power(p: Any) -> Any:
+        return (0.5 * (1.0 + p)) ** n_averages
+
+    kept = _without_tail(chebyshev.chebinterpolate(power, n_averages), _POWER_LEFT_OUT)
+    return [coefficient / sum(kept) for coefficient in kept]
 
 
 def _without_tail(coefficients: NDArray[np.float64], left_out: float) -> list[float]:

@@ -29,7 +29,7 @@ SIGNLESS = 1e-3
 """Scrambled numbers as near to 1/2 get no sign."""
 
 N_PROBES = (2, 6000)
-N_DRAWS = (4, 6000)
+N_DRAWS = (2, 6000)
 """Most probes, or draws of noise for a rehearsal, and the number of faces that one suffices for: small meshes
 need several."""
 
@@ -124,7 +124,9 @@ class Trial:
         The problem's positions on the ground go with it, for the low-passes.
         """
         wanted = list(wanted)
-        filters = {index: self.recipes[index].n_averages for index in wanted if self.recipes[index].is_low_pass}
+        filters = {
+            index: self.recipes[index].n_averages for index in wanted if self.recipes[index].is_low_pass
+        }
         rings = self.ground.rings
         changes: dict[int, NDArray[np.floating]] = {}
         if filters and self.ground is not self.problem:

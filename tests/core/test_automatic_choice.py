@@ -12,6 +12,7 @@ from framelet.core.automatic import choose, patches
 from framelet.core.automatic.patches import trial_part
 from framelet.core.automatic.problem import NormalProblem
 from framelet.core.automatic.recipes import RECIPES
+from framelet.core.automatic.roughness import Roughness
 from framelet.core.automatic.smooth_positions import ORDER, RingAverages, smooth_positions
 from framelet.core.denoising.constraints import find_constraints
 from framelet.core.normals.folds import unfold
@@ -136,30 +137,46 @@ def test_parts_of_large_meshes(kind, rng):
     assert (sizes[0] == sizes[1][part.vertices])[part.counts].all()
 
 
+def judged(risk, first, second):
+    """Return what `choose.scores` takes."""
+    return np.stack((risk, first, second), axis=1)
+
+
 def test_scores_are_risks_times_powers_of_roughness():
     score = choose.scores
     risk, plain = np.array([0.5, 0.2, 0.3]), np.ones(3)
-    assert score(risk, plain, plain).argmin() == 1
-    assert score(risk, np.array([1.0, 9.0, 1.1]), plain).argmin() == 2
-    assert score(risk, plain, np.array([1.0, 99.0, 1.1])).argmin() == 2
+    assert score(judged(risk, plain, plain)).argmin() == 1
+    assert score(judged(risk, np.array([1.0, 9.0, 1.1]), plain)).argmin() == 2
+    assert score(judged(risk, plain, np.array([1.0, 99.0, 1.1]))).argmin() == 2
     # Risks below zero lift all of them: their differences stay.
-    lifted = score(risk - 0.4, plain, plain)
+    lifted = score(judged(risk - 0.4, plain, plain))
     assert np.abs(np.diff(lifted) - np.diff(risk)).max() < 1e-12
     assert lifted.min() == pytest.approx(choose.UNCERTAINTY)
     # The stronger, the more smoothness counts; at strength 0 the risk alone does.
     smoother = np.array([0.5, 1.0, 1.0])
-    assert score(risk, smoother, plain).argmin() == 1
-    assert score(risk, smoother, plain, strength=4.0).argmin() == 0
-    assert np.allclose(score(risk, smoother, plain, strength=0.0), risk + choose.UNCERTAINTY)
+    assert score(judged(risk, smoother, plain)).argmin() == 1
+    assert score(judged(risk, smoother, plain), strength=4.0).argmin() == 0
+    assert np.allclose(score(judged(risk, smoother, plain), strength=0.0), risk + choose.UNCERTAINTY)
     # Where all are perfectly smooth, the risk alone decides.
-    assert np.allclose(score(risk, 0 * plain, 0 * plain), risk + choose.UNCERTAINTY)
+    assert np.allclose(score(judged(risk, 0 * plain, 0 * plain)), risk + choose.UNCERTAINTY)
+
+
+def test_scores_after_a_rehearsal_are_powers_of_all_that_is_known(rng):
+    table, angles = rng.uniform(0.1, 2.0, (7, 3)), rng.uniform(1.0, 9.0, 7)
+    found = np.log(choose.scores(table, angles, strength=1.3))
+    risk, first, second, angle = choose.REHEARSED
+    expected = risk * np.log(table[:, 0] + choose.UNCERTAINTY) + angle * np.log(angles)
+    expected += 1.3 * (first * np.log(table[:, 1]) + second * np.log(table[:, 2]))
+    assert np.abs((found - expected) - (found - expected)[0]).max() < 1e-12
+    alike = np.tile(table[:1], (7, 1))
+    assert choose.scores(alike, angles).argmin() == angles.argmin()
 
 
 def test_roughness_against_a_loop(rng):
     mesh = noisy(triangle_torus(8, 10), rng)
     problem = problem_of(mesh)
     counted = rng.random(mesh.n_vertices) < 0.8
-    quarter, bend = choose._Roughness(problem, counted).of(mesh.vertices.T)
+    quarter, bend = Roughness(problem, counted).of(mesh.vertices.T)
     normals = np.array([newell(mesh.vertices[face]) for face in faces_of(mesh)])
     normals /= np.linalg.norm(normals, axis=1, keepdims=True)
     apart, bends = [], []
@@ -175,7 +192,7 @@ def test_roughness_against_a_loop(rng):
 
 def test_roughness_of_nothing():
     mesh = MESHES["single triangle"]()
-    assert choose._Roughness(problem_of(mesh), np.ones(3, bool)).of(mesh.vertices.T) == (0.0, 0.0)
+    assert Roughness(problem_of(mesh), np.ones(3, bool)).of(mesh.vertices.T) == (0.0, 0.0)
 
 
 @KIND

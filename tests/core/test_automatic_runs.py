@@ -50,7 +50,7 @@ def test_some_pairs_share_a_pilot():
 @pytest.mark.parametrize("recipes", [SHARED[0], (RECIPES[-1],), (RECIPES[0], RECIPES[-1])])
 def test_progress_ends_at_one_whatever_is_chosen(recipes, rng, monkeypatch):
     seen = []
-    monkeypatch.setattr(engine, "choose_recipes", lambda *given, strength: given[-1](1.0) or recipes)
+    monkeypatch.setattr(engine, "choose_recipes", lambda *given, **_: given[-1](1.0) or recipes)
     result = denoise(noisy(triangle_torus(), rng), AUTO, callback=lambda *given: bool(seen.append(given)))
     fractions = [fraction for fraction, _ in seen]
     assert result.report.recipe == " and ".join(recipe.label for recipe in recipes)
