@@ -53,21 +53,28 @@ def _is_named(words: list[str], labels: list[str]) -> bool:
 
 def _recipe_texts(recipe: Recipe) -> dict[str, str]:
     """Return the words for one recipe."""
+    from ..core.automatic.position_bands import NUMBERS
     from ..core.normals.pilot import COUPLING
 
-    averages = rpt_("{number} averages").format(number=recipe.n_averages)
-    if not recipe.range_sigmas:
-        return {
-            "chosen_frame": n_("Low-pass"),
-            "chosen_levels": averages,
-            "chosen_lambda": "",
-            "chosen_mu": "",
-        }
-    frame = n_("Pairwise (normals)")
+    # Lines, in the order in which a run takes them.
+    frames, levels, units, coupling = [], [], "", ""
+    if recipe.n_averages:
+        frames.append(n_("Low-pass"))
+        levels.append(rpt_("{number} averages").format(number=recipe.n_averages))
+    if recipe.range_sigmas:
+        frames.append(n_("Pairwise (normals)"))
+        levels.append(str(recipe.n_bands))
+        units, coupling = f"{recipe.threshold:g}", f"{COUPLING:g}"
+    if recipe.n_rounds:
+        frames.append(n_("Bilateral (normals)"))
+        levels.append(rpt_("{number} averages").format(number=recipe.n_rounds))
+        units = f"{recipe.range_units:g}"
+    if recipe.is_refined:
+        frames.append(n_("Bands (positions)"))
+        levels.append(str(len(NUMBERS)))
     return {
-        # Lines, in the order in which a run takes them.
-        "chosen_frame": n_("Low-pass") + "\n" + frame if recipe.n_averages else frame,
-        "chosen_levels": f"{averages}\n{recipe.n_bands}" if recipe.n_averages else str(recipe.n_bands),
-        "chosen_lambda": rpt_("{number} × noise").format(number=f"{recipe.threshold:g}"),
-        "chosen_mu": f"{COUPLING:g}",
+        "chosen_frame": "\n".join(frames),
+        "chosen_levels": "\n".join(levels),
+        "chosen_lambda": rpt_("{number} × noise").format(number=units) if units else "",
+        "chosen_mu": coupling,
     }

@@ -28,11 +28,15 @@ are all nearly zero leave the choice to smoothness."""
 SMOOTHNESS = (0.5, 0.25)
 """Powers of the two measures of roughness that risks are multiplied by for a first choice."""
 
-REHEARSED = (0.67, 0.2, 0.2, 1.0)
+REHEARSED = (0.9, 0.2, 0.0, 1.0)
 """Powers of the risk, of two measures of roughness, and of the rehearsed angle, for the last choice."""
 
 N_PAIRED = 14
 """Recipes, the best ones alone, that are rehearsed and whose pairs are looked at."""
+
+NEARLY_BEST = 1.1
+"""How many times the least score a recipe may have, alone, to be in a pair that is the first choice. Where
+the risk is wrong, two that do too little may look good together, and a rehearsal on them would like them."""
 
 TINY_ROUGHNESS = 1e-4
 """Differences of normals below this are rounding."""
@@ -119,14 +123,16 @@ def choose_recipes(
 
     singles = [(int(index),) for index in hopeful]
     judged = judge(singles)
-    order = np.argsort(scores(judged, strength=strength), kind="stable")[:N_PAIRED]
-    best = sorted(singles[place][0] for place in order)
+    alone = scores(judged, strength=strength)
+    order = np.sort(np.argsort(alone, kind="stable")[:N_PAIRED])
+    best = [singles[place][0] for place in order]
     choices: list[Choice] = [(index,) for index in best]
-    judged = judged[np.sort(order)]
+    judged, is_good = judged[order], alone[order] <= NEARLY_BEST * alone.min()
     if not is_large and len(best) > 1:
         pairs: list[Choice] = list(combinations(best, 2))
         choices, judged = choices + pairs, np.concatenate((judged, judge(pairs)))
-    first = choices[int(np.argmin(scores(judged, strength=strength)))]
+        is_good = np.append(is_good, [one and other for one, other in combinations(is_good, 2)])
+    first = choices[int(np.argmin(np.where(is_good, scores(judged, strength=strength), np.inf)))]
     rehearsal = Rehearsal(trial, trial.ground_mean_of(first), is_impulsive=is_impulsive)
     rehearsal.run(best, lambda: tick(share))
     tick(share * trial.n_draws * (len(recipes) - len(best)))

@@ -56,7 +56,6 @@ class Recipe(NamedTuple):
 _FLAT = Recipe("Flat and sharp", 0.12, (0.4, 0.3), 1.5, 7, 50)
 _EVEN = Recipe("Smooth and even", 0.12, (0.35, 0.25), 4.0, 7, 50)
 _SHARP = Recipe("Sharp and coarse", 0.05, (0.5, 0.3), 1.5, 6, 25)
-_ROUND = Recipe("Round with edges", 0.12, (0.5, 0.5), 1.5, 6, 20)
 _FINE = Recipe("Fine relief", 0.12, (1.2, 1.2), 1.5, 4, 8)
 
 
@@ -69,29 +68,29 @@ def _after(n_averages: int, *recipes: Recipe) -> list[Recipe]:
 
 
 def _crisp(range_units: float, n_rounds: int) -> Recipe:
-    label = f"Crisp edges {range_units:g} {n_rounds}"
+    """Return a recipe that averages normals in rounds."""
+    label = f"Crisp edges {n_rounds}"
     return Recipe(label, vertex_steps=10, n_rounds=n_rounds, range_units=range_units)
 
 
 def _low_pass(n_averages: int) -> Recipe:
+    """Return a recipe that filters positions only."""
     return Recipe(f"Smooth and coarse {n_averages}", n_averages=n_averages)
 
 
-def _soft(*recipes: Recipe) -> list[Recipe]:
-    return [r._replace(label=f"Soft {r.label}", is_refined=True) for r in recipes]
-
-
 RECIPES = (
-    *(_FLAT, _SHARP, _ROUND, _FINE),
-    *_after(4, _FLAT, _EVEN, _SHARP, _FINE),
-    *_after(8, _EVEN, _FINE),
+    *(_FLAT, _SHARP, _FINE),
+    *_after(4, _FLAT, _EVEN, _SHARP),
+    *_after(8, _FINE),
     *_after(16, _EVEN, _FINE),
-    *map(_low_pass, (8, 24, 32, 64, 128, 192)),
-    *(_crisp(0.9, 4), _crisp(1.3, 16), _crisp(0.9, 32), _crisp(2.0, 8)),
-    *_after(4, _crisp(0.6, 4), _crisp(0.6, 32), _crisp(1.3, 16)),
-    *_soft(_FINE, *_after(4, _FINE), *_after(8, _FINE), *_after(16, _FINE), _low_pass(32)),
+    *map(_low_pass, (24, 32, 128, 192)),
+    *(_crisp(0.9, 4), _crisp(0.9, 32)),
+    *_after(4, _crisp(1.3, 16), _crisp(0.6, 32)),
+    _FINE._replace(label="Soft relief", is_refined=True),
+    *_after(8, _FINE._replace(label="Soft relief", is_refined=True)),
+    _low_pass(32)._replace(label="Soft and coarse 32", is_refined=True),
 )
-"""For weak to strong noise and, within each of these groups, from machine parts to organic shapes."""
+"""What was left over of many, on models with noise of known strength; see `docs/how_auto_decides.md`."""
 
 PILOTS = frozenset(recipe.pilot for recipe in RECIPES if recipe.is_refined)
 

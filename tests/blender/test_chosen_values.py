@@ -24,15 +24,18 @@ def texts(recipe="", noise="measured", **settings):
 def test_every_recipe_has_words(recipe):
     found = texts(recipe.label, method="AUTO")
     assert list(found) == NAMES
+    steps = [("Low-pass", f"{recipe.n_averages} averages")] if recipe.n_averages else []
     if recipe.range_sigmas:
-        first = [f"{recipe.n_averages} averages"] if recipe.n_averages else []
-        assert found["chosen_levels"].splitlines() == [*first, str(recipe.n_bands)]
-        assert found["chosen_frame"].splitlines()[-1] == "Pairwise (normals)"
-        assert found["chosen_lambda"] == f"{recipe.threshold} × noise"
-        assert float(found["chosen_mu"]) == COUPLING
-    else:
-        assert found["chosen_levels"] == f"{recipe.n_averages} averages"
-        assert not found["chosen_lambda"] and not found["chosen_mu"]
+        steps.append(("Pairwise (normals)", str(recipe.n_bands)))
+    if recipe.n_rounds:
+        steps.append(("Bilateral (normals)", f"{recipe.n_rounds} averages"))
+    if recipe.is_refined:
+        steps.append(("Bands (positions)", "7"))
+    frames, levels = (found[name].splitlines() for name in ("chosen_frame", "chosen_levels"))
+    assert list(zip(frames, levels, strict=True)) == steps and steps
+    width = recipe.threshold or recipe.range_units
+    assert found["chosen_lambda"] == (f"{width} × noise" if width else "")
+    assert found["chosen_mu"] == (f"{COUPLING:g}" if recipe.range_sigmas else "")
 
 
 @pytest.mark.parametrize(("one", "other"), list(permutations(RECIPES, 2)))

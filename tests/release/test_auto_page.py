@@ -6,41 +6,51 @@ import re
 from pathlib import Path
 
 import pytest
-from framelet.core.automatic import choose, filter, patches, problem
-from framelet.core.automatic.recipes import RECIPES
+from framelet.core.automatic import choose, filter, patches, position_bands, problem, trial
+from framelet.core.automatic.recipes import RECIPES, Recipe
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = " ".join((ROOT / "docs" / "how_auto_decides.md").read_text(encoding="utf-8").split())
-WORDS = {10: "ten", 4: "four", 6: "six", 16: "sixteen"}
+WORDS = {10: "ten", 2: "two", 20: "twenty"}
+
+
+def table_lines(begin):
+    """Yield the lines of the table that begins with some words, as lists of texts."""
+    text = (ROOT / "docs" / "how_auto_decides.md").read_text(encoding="utf-8")
+    for line in text[text.index(begin) :].split("\n\n")[0].splitlines()[2:]:
+        yield [cell.strip() for cell in line.strip("|").split("|")]
+
+
+def numbers_in(text):
+    return [int(number) for number in re.findall(r"\d+", text)]
 
 
 def listed_recipes():
-    """Return the lines of the table of recipes, as tuples of the fields of a recipe."""
-    text = (ROOT / "docs" / "how_auto_decides.md").read_text(encoding="utf-8")
-    table = text[text.index("| Label |") :].split("\n\n")[0].splitlines()[2:]
-    for line in table:
-        label, threshold, widths, caution, bands, steps, after = (
-            cell.strip() for cell in line.strip("|").split("|")
-        )
-        numbers = [int(number) for number in re.findall(r"\d+", after)]
-        if not threshold:
-            yield from ((label.replace(" k", f" {k}"), 0.0, (), 1.0, 0, 0, k) for k in numbers)
-            continue
-        shared = (
-            float(threshold),
-            tuple(map(float, widths.split(", "))),
-            float(caution),
-            int(bands),
-            int(steps),
-        )
-        for k in numbers:
-            yield (f"{label} after smoothing {k}" if k else label, *shared, k)
+    """Yield the recipes of the two tables."""
+    for label, threshold, widths, caution, bands, steps, after in table_lines("| Label | Threshold |"):
+        is_refined = label.startswith("Soft")
+        for k in numbers_in(after):
+            if not threshold:
+                yield Recipe(label.replace(" k", f" {k}"), n_averages=k, is_refined=is_refined)
+                continue
+            ranges = tuple(map(float, widths.split(", ")))
+            recipe = Recipe(label, float(threshold), ranges, float(caution), int(bands), int(steps))
+            yield recipe._replace(label=after_smoothing(label, k), n_averages=k, is_refined=is_refined)
+    for label, width, rounds, steps, after in table_lines("| Label | Width |"):
+        for k in numbers_in(after):
+            recipe = Recipe(after_smoothing(label, k), n_averages=k, range_units=float(width))
+            yield recipe._replace(n_rounds=int(rounds), vertex_steps=int(steps))
 
 
-def test_the_table_has_all_recipes_and_their_parameters():
+def after_smoothing(label, k):
+    return f"{label} after smoothing {k}" if k else label
+
+
+def test_the_tables_have_all_recipes_and_their_parameters():
     listed = list(listed_recipes())
     assert len(listed) == len(set(listed))
-    assert sorted(listed) == sorted(map(tuple, RECIPES))
+    assert sorted(listed) == sorted(RECIPES)
+    assert len({recipe.label for recipe in RECIPES}) == len(RECIPES)
 
 
 def test_the_number_of_recipes():
@@ -59,18 +69,32 @@ def test_the_number_of_recipes():
         f"the inner {patches.INNER:.0%} of the radius".replace("%", " %"),
         f"moved by {problem.TINY_STEP} sigma",
         f"fitted to the pilot in {problem.PILOT_VERTEX_STEPS} steps",
-        f"up to {WORDS[choose.N_PROBES[0]]} different b",
-        f"eps = {choose.PROBE}",
-        f"counts with {choose.LARGEST_RESPONSE:.0f} at most",
-        f"least risk / sigma²) + {choose.UNCERTAINTY})",
+        f"on small meshes with {WORDS[trial.N_PROBES[0]]} different b",
+        f"small meshes get {WORDS[trial.N_DRAWS[0]]} draws",
+        f"eps = {trial.PROBE}",
+        f"counts with {trial.LARGEST_RESPONSE:.0f} at most",
+        f"least risk / sigma²) + {choose.UNCERTAINTY}",
+        f"The {choose.N_PAIRED} best recipes run on that",
+        f"is within {choose.NEARLY_BEST - 1:.0%} of the least one".replace("%", " %"),
         f"Means of two of the {choose.N_PAIRED} best results",
         f"Beyond {choose.PAIRED_UP_TO:,} faces only single recipes",
+        f"up to {trial.WIDE_UP_TO:,} faces they are tried on the whole mesh",
+        f"E² / (E² + ({position_bands.CAUTION} N)²)",
     ],
 )
 def test_constants(words):
     assert words in PAGE
 
 
-def test_powers_of_roughness():
+def test_powers():
     assert choose.SMOOTHNESS == (1 / 2, 1 / 4)
-    assert "· sqrt(q) · b^(1/4)" in PAGE
+    assert "R · sqrt(q) · b^(1/4)" in PAGE
+    risk, quarter, bends, angle = choose.REHEARSED
+    assert (bends, angle) == (0, 1)
+    assert f"R^{risk} · q^{quarter} · a" in PAGE
+
+
+def test_numbers_of_averages_of_the_bands():
+    first, *_, last = position_bands.NUMBERS
+    assert list(position_bands.NUMBERS) == [2**j for j in range(len(position_bands.NUMBERS))]
+    assert f"the bands L_k - L_2k with k = {first}, 2, 4 to {last}" in PAGE
