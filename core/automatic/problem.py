@@ -42,6 +42,9 @@ PILOT_VERTEX_STEPS = 8
 TINY_STEP = 0.02
 """Share of the noise by which vertices move to see what the noise does to normals of the noisy mesh."""
 
+LEAST_WIDTH = 1e-4
+"""Of weights on differences of unit normals; where the noise changes none of them, rounding does."""
+
 SLIGHTLY = 4
 """Averages that smooth the positions from which distances and areas are taken."""
 
@@ -194,7 +197,7 @@ class NormalProblem:
     ) -> NDArray[np.floating]:
         """Return unit normals, shape (3, F), after averages with weights that are made again each time."""
         self.start(0)  # the unit is that of the noisy normals, smoothed or not
-        width = recipe.range_units * self.units[0]
+        width = max(recipe.range_units * self.units[0], LEAST_WIDTH)
         for _ in range(recipe.n_rounds):
             normals = self.averages.smooth(normals, self.averages.weights(normals, width), 1)
             tick(0.0)
