@@ -17,9 +17,9 @@ from .rehearsal import Rehearsal
 from .roughness import Roughness
 from .trial import Trial
 
-HOPELESS = 0.5
-"""A recipe whose squared displacements are so many variances of the noise above those of the noise, or above
-the smallest ones, is given up without probes: they do not tell more than that apart."""
+HOPELESS = 1.5
+"""A recipe whose mean squared displacement is so many times that of the noise, or of most recipes, is given up
+without probes: they do not tell more than that apart."""
 
 UNCERTAINTY = 0.08
 """In units of the variance of the noise: how well risks are known. It is added to them, so that risks that
@@ -107,7 +107,8 @@ def choose_recipes(
     share = 1.0 / ((1 + trial.n_probes + trial.n_draws) * len(recipes))
     trial.run(lambda: tick(share))
     spread = np.mean(trial.heights**2, axis=1)
-    hopeful = np.flatnonzero(spread <= max(1.0, spread.min()) + HOPELESS)
+    # Where the noise is measured too weak, all that do away with it move vertices farther than it says.
+    hopeful = np.flatnonzero(spread <= HOPELESS * max(1.0, float(np.median(spread))))
     divergence = trial.divergences(hopeful, lambda: tick(share))
     tick(share * trial.n_probes * (len(recipes) - len(hopeful)))
     rough = Roughness(trial.problem, trial.counted)
