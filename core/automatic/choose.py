@@ -18,17 +18,17 @@ from .roughness import Roughness
 from .trial import Trial
 
 HOPELESS = 1.5
-"""A recipe whose mean squared displacement is so many times that of the noise, or of most recipes, is given up
-without probes: they do not tell more than that apart."""
+"""A recipe whose mean squared displacement is so many times that of the noise, or of most recipes, is given
+up without probes: they do not tell more than that apart."""
 
 UNCERTAINTY = 0.08
 """In units of the variance of the noise: how well risks are known. It is added to them, so that risks that
 are all nearly zero leave the choice to smoothness."""
 
-SMOOTHNESS = (0.5, 0.25)
+SMOOTHNESS = (0.25, 0.25)
 """Powers of the two measures of roughness that risks are multiplied by for a first choice."""
 
-REHEARSED = (0.9, 0.2, 0.0, 1.0)
+REHEARSED = (0.7, 0.2, 0.1, 1.0)
 """Powers of the risk, of two measures of roughness, and of the rehearsed angle, for the last choice."""
 
 N_PAIRED = 14

@@ -21,9 +21,6 @@ from .smooth_positions import RingAverages, low_pass_changes, often_averaged
 NUMBERS = (1, 2, 4, 8, 16, 32, 64)
 """Numbers of averages of the low-passes."""
 
-CAUTION = 1.5
-"""The noise counts so many times."""
-
 LEAST_AVERAGES = 2
 """Averages that smooth the energies of the finest band; of a wider one there are as many as made it."""
 
@@ -34,6 +31,7 @@ def shrink_positions(
     pilot: NDArray[np.floating],
     directions: NDArray[np.floating],
     rings: RingAverages,
+    caution: float,
 ) -> NDArray[np.floating]:
     """Shrink the bands of noisy positions.
 
@@ -49,6 +47,8 @@ def shrink_positions(
         Unit normals of the pilot.
     rings : RingAverages
         Vertices around vertices.
+    caution : float
+        The noise counts so many times; larger removes more.
 
     Returns
     -------
@@ -56,7 +56,7 @@ def shrink_positions(
 
     Notes
     -----
-    The gain of a band is E^2 / (E^2 + (`CAUTION` N)^2), with the local energies E of the pilot's band along
+    The gain of a band is E^2 / (E^2 + (caution N)^2), with the local energies E of the pilot's band along
     the normals and N of the sample's. Of the pilot only what is along the normals counts, since where the
     vertices are within the surface says nothing about the shape.
     """
@@ -75,7 +75,7 @@ def shrink_positions(
         energies = np.stack((along * along, band[:, 3] * band[:, 3]), axis=1)
         energies = often_averaged(energies, rings, max(LEAST_AVERAGES, number))
         signal = np.square(np.maximum(energies[:, 0], 0))
-        spoiled = signal + np.square(dtype.type(CAUTION) * np.maximum(energies[:, 1], 0))
+        spoiled = signal + np.square(dtype.type(caution) * np.maximum(energies[:, 1], 0))
         gain = np.divide(signal, spoiled, out=np.ones_like(signal), where=spoiled > np.finfo(dtype).tiny)
         total[:, :3] += gain[:, None] * band[:, :3]
     return noisy + rings.outward(total)[:, :3].T

@@ -280,7 +280,8 @@ class NormalProblem:
             area_vectors(pilot, self.surface, self.blocks), self.at_vertex, self.blocks
         )
         directions = unit_columns(at_vertices, np.zeros_like(at_vertices))
-        points = shrink_positions(self.noisy, self.sigma * self.sample, pilot, directions, self.rings)
+        noise = self.sigma * self.sample
+        points = shrink_positions(self.noisy, noise, pilot, directions, self.rings, recipe.position_caution)
         tick(0.0)
         return points
 

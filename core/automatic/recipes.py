@@ -22,8 +22,8 @@ class Recipe(NamedTuple):
     - `n_rounds`: averages over the faces around, each with weights from the one before it, whose width
       `range_units` is in the same units.
 
-    Without either, the low-pass is all there is. At last, if `is_refined`, the result is the pilot by which
-    bands of the noisy positions are shrunk.
+    Without either, the low-pass is all there is. At last, if `position_caution` is not 0, the result is the
+    pilot by which bands of the noisy positions are shrunk, with this caution.
     """
 
     label: str
@@ -35,12 +35,17 @@ class Recipe(NamedTuple):
     n_averages: int = 0
     n_rounds: int = 0
     range_units: float = 0.0
-    is_refined: bool = False
+    position_caution: float = 0.0
+
+    @property
+    def is_refined(self) -> bool:
+        """Whether bands of positions are shrunk at last."""
+        return self.position_caution > 0
 
     @property
     def pilot(self) -> Recipe:
         """What a refined recipe takes its pilot from."""
-        return self._replace(label="", is_refined=False)
+        return self._replace(label="", position_caution=0.0)
 
     @property
     def is_low_pass(self) -> bool:
@@ -86,9 +91,9 @@ RECIPES = (
     *map(_low_pass, (24, 32, 128, 192)),
     *(_crisp(0.9, 4), _crisp(0.9, 32)),
     *_after(4, _crisp(1.3, 16), _crisp(0.6, 32)),
-    _FINE._replace(label="Soft relief", is_refined=True),
-    *_after(8, _FINE._replace(label="Soft relief", is_refined=True)),
-    _low_pass(32)._replace(label="Soft and coarse 32", is_refined=True),
+    _FINE._replace(label="Soft relief", position_caution=1.0),
+    *_after(8, _FINE._replace(label="Soft relief", position_caution=1.5)),
+    _low_pass(32)._replace(label="Soft and coarse 32", position_caution=1.5),
 )
 """What was left over of many, on models with noise of known strength; see `docs/how_auto_decides.md`."""
 

@@ -146,7 +146,7 @@ def test_scores_are_risks_times_powers_of_roughness():
     score = choose.scores
     risk, plain = np.array([0.5, 0.2, 0.3]), np.ones(3)
     assert score(judged(risk, plain, plain)).argmin() == 1
-    assert score(judged(risk, np.array([1.0, 9.0, 1.1]), plain)).argmin() == 2
+    assert score(judged(risk, np.array([1.0, 99.0, 1.1]), plain)).argmin() == 2
     assert score(judged(risk, plain, np.array([1.0, 99.0, 1.1]))).argmin() == 2
     # Risks below zero lift all of them: their differences stay.
     lifted = score(judged(risk - 0.4, plain, plain))
@@ -155,7 +155,7 @@ def test_scores_are_risks_times_powers_of_roughness():
     # The stronger, the more smoothness counts; at strength 0 the risk alone does.
     smoother = np.array([0.5, 1.0, 1.0])
     assert score(judged(risk, smoother, plain)).argmin() == 1
-    assert score(judged(risk, smoother, plain), strength=4.0).argmin() == 0
+    assert score(judged(risk, smoother, plain), strength=8.0).argmin() == 0
     assert np.allclose(score(judged(risk, smoother, plain), strength=0.0), risk + choose.UNCERTAINTY)
     # Where all are perfectly smooth, the risk alone decides.
     assert np.allclose(score(judged(risk, 0 * plain, 0 * plain)), risk + choose.UNCERTAINTY)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from checks import assert_same_bits, lengths
 from framelet.core import connect
-from framelet.core.automatic.position_bands import CAUTION, LEAST_AVERAGES, NUMBERS, shrink_positions
+from framelet.core.automatic.position_bands import LEAST_AVERAGES, NUMBERS, shrink_positions
 from framelet.core.automatic.problem import NormalProblem
 from framelet.core.automatic.recipes import RECIPES
 from framelet.core.automatic.smooth_positions import (
@@ -80,13 +80,13 @@ def test_shrinkage_of_bands_against_dense_matrices(kind, rng):
         band = high - low
         smooth = np.linalg.matrix_power(average, max(LEAST_AVERAGES, k))
         signal = smooth @ np.einsum("nc,cn->n", band @ pilot.T, directions) ** 2
-        spoiled = CAUTION * (smooth @ (band @ noise) ** 2)
+        spoiled = 1.3 * (smooth @ (band @ noise) ** 2)
         total = signal**2 + spoiled**2
         gain = np.divide(signal**2, total, out=np.ones_like(total), where=total > 0)
         expected += gain[:, None] * (band @ points.T)
     expected += low @ points.T
     given = [x.copy() for x in (points, pilot)]
-    found = shrink_positions(points, noise, pilot, directions, rings).T
+    found = shrink_positions(points, noise, pilot, directions, rings, 1.3).T
     assert np.abs(found - expected).max() < 0.03 * np.abs(points).max()  # energies are smoothed nearly
     for x, y in zip(given, (points, pilot), strict=True):
         assert_same_bits(x, y)
@@ -97,10 +97,10 @@ def test_bands_sum_up_to_the_positions_without_noise(rng):
     rings = RingAverages(connect(mesh), ALONE)
     up = np.tile([[0.0], [0.0], [1.0]], mesh.n_vertices)
     points, nothing = mesh.vertices.T.copy(), np.zeros(mesh.n_vertices)
-    assert np.abs(shrink_positions(points, nothing, points, up, rings) - points).max() < 1e-12
+    assert np.abs(shrink_positions(points, nothing, points, up, rings, 1.0) - points).max() < 1e-12
     # Where the pilot has nothing in a band, and there is noise, only the last low-pass is left.
     noise = rng.normal(size=mesh.n_vertices)
-    found = shrink_positions(points, noise, np.zeros_like(points), up, rings)
+    found = shrink_positions(points, noise, np.zeros_like(points), up, rings, 1.0)
     assert np.abs(found - smooth_positions(points, rings, NUMBERS[-1])).max() < 1e-12
 
 
@@ -121,7 +121,8 @@ def test_refined_recipes_take_their_pilot_from_the_rest(recipe, rng):
         a, b, c = pilot.T[corners]
         vectors[corners] += np.cross(b - a, c - a)
     directions = unit_columns(vectors.T, vectors.T)
-    expected = shrink_positions(one.noisy, 0.1 * one.sample, pilot, directions, one.rings)
+    caution = recipe.position_caution
+    expected = shrink_positions(one.noisy, 0.1 * one.sample, pilot, directions, one.rings, caution)
     assert np.abs(found - expected).max() < 1e-9
 
 

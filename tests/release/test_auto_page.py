@@ -27,15 +27,15 @@ def numbers_in(text):
 
 def listed_recipes():
     """Yield the recipes of the two tables."""
-    for label, threshold, widths, caution, bands, steps, after in table_lines("| Label | Threshold |"):
-        is_refined = label.startswith("Soft")
+    for label, threshold, widths, caution, bands, steps, after, last in table_lines("| Label | Threshold |"):
+        refined = float(last or 0)
         for k in numbers_in(after):
             if not threshold:
-                yield Recipe(label.replace(" k", f" {k}"), n_averages=k, is_refined=is_refined)
+                yield Recipe(label.replace(" k", f" {k}"), n_averages=k, position_caution=refined)
                 continue
             ranges = tuple(map(float, widths.split(", ")))
             recipe = Recipe(label, float(threshold), ranges, float(caution), int(bands), int(steps))
-            yield recipe._replace(label=after_smoothing(label, k), n_averages=k, is_refined=is_refined)
+            yield recipe._replace(label=after_smoothing(label, k), n_averages=k, position_caution=refined)
     for label, width, rounds, steps, after in table_lines("| Label | Width |"):
         for k in numbers_in(after):
             recipe = Recipe(after_smoothing(label, k), n_averages=k, range_units=float(width))
@@ -79,7 +79,6 @@ def test_the_number_of_recipes():
         f"Means of two of the {choose.N_PAIRED} best results",
         f"Beyond {choose.PAIRED_UP_TO:,} faces only single recipes",
         f"up to {trial.WIDE_UP_TO:,} faces they are tried on the whole mesh",
-        f"E² / (E² + ({position_bands.CAUTION} N)²)",
     ],
 )
 def test_constants(words):
@@ -87,11 +86,11 @@ def test_constants(words):
 
 
 def test_powers():
-    assert choose.SMOOTHNESS == (1 / 2, 1 / 4)
-    assert "R · sqrt(q) · b^(1/4)" in PAGE
+    assert choose.SMOOTHNESS == (1 / 4, 1 / 4)
+    assert "R · (q b)^(1/4)" in PAGE
     risk, quarter, bends, angle = choose.REHEARSED
-    assert (bends, angle) == (0, 1)
-    assert f"R^{risk} · q^{quarter} · a" in PAGE
+    assert angle == 1
+    assert f"R^{risk} · q^{quarter} · b^{bends} · a" in PAGE
 
 
 def test_numbers_of_averages_of_the_bands():
