@@ -24,6 +24,10 @@ PLOT = loading.ROOT / "docs" / "images" / "speed.png"
 TIMEOUT = 900
 """Seconds after which a run is given up."""
 
+SHORT = 5.0
+REPEATS = 3
+"""Runs of fewer seconds are made so many times; the best one counts."""
+
 
 def main():
     """Run the benchmark and return the exit code."""
@@ -89,7 +93,8 @@ def measure(arguments):
     blender = python_of(arguments.blender) if any(run.kind == "blender" for run in plan) else ""
     rows = []
     for number, run in enumerate(plan, 1):
-        found = measure_one(run, arguments.output / "meshes", blender)
+        n_tries = 1 if arguments.quick else REPEATS
+        found = measure_best(run, arguments.output / "meshes", blender, n_tries)
         if "missing" in found:
             say(f"[{number}/{len(plan)}] {run.what}, {run.size:,}: left out, {found['missing']}")
             continue
@@ -100,6 +105,22 @@ def measure(arguments):
         write_rows(rows, arguments.output / "speed.csv")  # what is there is kept, whatever comes
         say(f"[{number}/{len(plan)}] {run.what}, {found['n_vertices']:,}: {stages['all']:.2f} s")
     return rows
+
+
+def measure_best(run, meshes, blender, n_tries):
+    """Make one run, or the best of several if it is short: what else the computer does only adds time."""
+    found = measure_one(run, meshes, blender)
+    if "missing" in found or found["stages"]["all"] > SHORT:
+        return found
+    tries = [found, *(measure_one(run, meshes, blender) for _ in range(n_tries - 1))]
+    return best_of([each for each in tries if "missing" not in each])
+
+
+def best_of(tries):
+    """Return the run that took the least time, with the least time of a second run among all."""
+    best = min(tries, key=lambda found: found["stages"]["all"])
+    again = [found["stages"]["rerun"] for found in tries if "rerun" in found["stages"]]
+    return {**best, "stages": {**best["stages"], **({"rerun": min(again)} if again else {})}}
 
 
 def measure_one(run, meshes, blender):

@@ -56,3 +56,11 @@ def test_tables_can_be_written_again(quick, tmp_path):
     assert (quick / "speed.md").read_text(encoding="utf-8") == (tmp_path / "speed.md").read_text(
         encoding="utf-8"
     )
+
+
+def test_the_best_of_several_runs():
+    """In a Python of its own, as other benchmarks have modules of the same names."""
+    tries = [{"stages": {"all": t, "rerun": r}, "peak": p} for t, r, p in ((3, 2, 1), (1, 9, 5), (2, 1, 7))]
+    code = f"import sys; sys.path.insert(0, {str(PROGRAM.parent)!r}); import run; print(run.best_of({tries}))"
+    result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert result.stdout.strip() == str({"stages": {"all": 1, "rerun": 1}, "peak": 5})
