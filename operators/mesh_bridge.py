@@ -247,10 +247,12 @@ def _moved(
 
     # Compared by value, so that a zero that only changed its sign keeps its bits too.
     new = np.asarray(vertices, np.float32)
-    moved = np.flatnonzero((new != before.vertices).any(axis=1))
+    x, y, z = (new != before.vertices).T
+    is_moved = x | y
+    is_moved |= z
     positions = before.vertices.astype(np.float32)
-    positions[moved] = new[moved]
-    return moved, positions
+    np.copyto(positions, new, where=is_moved[:, None])
+    return np.flatnonzero(is_moved), positions
 
 
 def _write_edit_mesh(mesh: bpy.types.Mesh, moved: NDArray[np.intp], vertices: NDArray[np.float32]) -> None:
@@ -273,7 +275,9 @@ def read_arrays(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey | None) -> Surface
     n_corners, n_faces = len(mesh.loops), len(mesh.polygons)
     vertices = read_positions(mesh) if key is None else read_key_points(key)
     edges = np.empty((len(mesh.edges), 2), np.int32)
-    mesh.edges.foreach_get("vertices", edges.reshape(-1))
+    if len(edges):
+        # A hundred times faster than `mesh.edges`, which asks each edge.
+        mesh.attributes[".edge_verts"].data.foreach_get("value", edges.reshape(-1))
     corner_vertex = np.empty(n_corners, np.int32)
     corner_edge = np.empty(n_corners, np.int32)
     face_offset = np.full(n_faces + 1, n_corners, np.int32)
