@@ -82,6 +82,12 @@ class Blocks:
         other._owner = self._owner
         return other
 
+    def alone(self) -> Blocks:
+        """Return blocks that run on the calling thread, and stop as those of this object do now."""
+        other = Blocks(1, self.block_size)
+        other._should_stop = self._owner._should_stop
+        return other
+
     def run(self, kernel: Callable[[int, int], Result], n_items: int) -> list[Result]:
         """Call `kernel(start, stop)` for each block of `range(n_items)`.
 

@@ -82,9 +82,11 @@ class Trial:
         blocks: Blocks,
     ) -> None:
         part = trial_part(noisy, surface)
-        self.surface, self.sigma, self.recipes, self.blocks = part.surface, sigma, recipes, blocks
+        # A part is so small that handing its blocks to threads costs more than they save.
+        self.blocks = blocks.alone()
+        self.surface, self.sigma, self.recipes = part.surface, sigma, recipes
         self.points = np.ascontiguousarray(noisy[:, part.vertices])
-        self._connectivity = connect(part.surface, blocks)
+        self._connectivity = connect(part.surface, self.blocks)
         is_wide = part.surface is not surface and surface.n_faces <= WIDE_UP_TO
         if is_wide:
             self.ground = NormalProblem(noisy, surface, connect(surface, blocks), sigma, blocks)
@@ -114,7 +116,7 @@ class Trial:
     def scrambled(self, periods: float) -> NDArray[np.floating]:
         """Return a number between 0 and 1 for each vertex of the ground, which looks random."""
         ground = self.ground
-        return scrambled(ground.noisy, ground.surface, ground.at_vertex, self.sigma, periods, self.blocks)
+        return scrambled(ground.noisy, ground.surface, ground.at_vertex, self.sigma, periods, ground.blocks)
 
     def runs(
         self, problem: NormalProblem, on_ground: NDArray[np.floating], wanted: Iterable[int]

@@ -4,12 +4,13 @@
 
 import cProfile
 import pstats
+import threading
 
 import numpy as np
 import pytest
 from checks import TRIANGLE_PRESETS, assert_same_bits
 from framelet.core import PRESETS, SurfaceMesh, add_noise, compare, connect, denoise, make_stencil
-from framelet.core.blocks import BLOCK_SIZE, Blocks, available_cores
+from framelet.core.blocks import BLOCK_SIZE, Blocks, Stopped, available_cores
 from framelet.core.surface.geometry import mean_edge_length
 from meshes import flipped, mixed_sheet, noisy, pyramid, triangle_grid, triangle_torus, turned_over, union
 
@@ -158,3 +159,14 @@ def test_tasks_run_together_and_results_keep_their_order(threads):
             "second",
             "third",
         ]
+
+
+def test_alone_runs_on_the_calling_thread_and_stops_with_the_others():
+    stops = iter([False, False, True])
+    with Blocks(2, 10).stopped_by(lambda: next(stops)) as blocks:
+        alone = blocks.alone()
+        names = alone.sized(5).run(lambda start, stop: threading.current_thread().name, 10)
+        assert names == [threading.current_thread().name] * 2
+        with pytest.raises(Stopped):
+            alone.run(lambda start, stop: None, 10)
+        assert blocks.n_threads == 2 and alone.block_size == 10
