@@ -89,7 +89,7 @@ RECIPES = (
     *_after(8, _FINE),
     *_after(16, _EVEN, _FINE),
     *map(_low_pass, (24, 32, 128, 192)),
-    *(_crisp(0.9, 4), _crisp(0.9, 32)),
+    _crisp(0.9, 32),
     *_after(4, _crisp(1.3, 16), _crisp(0.6, 32)),
     _FINE._replace(label="Soft relief", position_caution=1.0),
     *_after(8, _FINE._replace(label="Soft relief", position_caution=1.5)),

@@ -11,7 +11,7 @@ from framelet.core.automatic.recipes import RECIPES, Recipe
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = " ".join((ROOT / "docs" / "how_auto_decides.md").read_text(encoding="utf-8").split())
-WORDS = {10: "ten", 2: "two", 20: "twenty"}
+WORDS = {10: "ten", 2: "two", 19: "nineteen"}
 
 
 def table_lines(begin):

@@ -24,7 +24,7 @@ TEXTS = {
     "Soft relief": "Weiches Relief",
     "Soft relief after smoothing 8": "Weiches Relief nach Glättung 8",
     "Soft and coarse 32": "Weich und grob 32",
-    **{f"Crisp edges {n}": f"Klare Kanten {n}" for n in (4, 16, 32)},
+    **{f"Crisp edges {n}": f"Klare Kanten {n}" for n in (16, 32)},
     **{f"Crisp edges {n} after smoothing 4": f"Klare Kanten {n} nach Glättung 4" for n in (16, 32)},
     "Flat and sharp after smoothing 4": "Flach und scharf nach Glättung 4",
     "Sharp and coarse after smoothing 4": "Scharf und grob nach Glättung 4",
