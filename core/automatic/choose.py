@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
+from ..surface.connectivity import Connectivity
 from ..surface.surface_mesh import SurfaceMesh
 from .recipes import RECIPES, Recipe
 from .rehearsal import Rehearsal
@@ -41,6 +42,9 @@ the risk is wrong, two that do too little may look good together, and a rehearsa
 TINY_ROUGHNESS = 1e-4
 """Differences of normals below this are rounding."""
 
+TINY_ANGLE = 1e-3
+"""Degrees; where no angle can be measured, or all are rounding, risk and roughness decide alone."""
+
 PAIRED_UP_TO = 500_000
 """Faces up to which two recipes may be run and averaged, and slow ones run; the time of larger meshes is
 better spent on one."""
@@ -58,6 +62,7 @@ def choose_recipes(
     strength: float = 1.0,
     *,
     is_impulsive: bool = False,
+    connectivity: Connectivity | None = None,
 ) -> tuple[Recipe, ...]:
     """Try all recipes on parts of a mesh and return the best one, or the best two to be averaged.
 
@@ -77,6 +82,8 @@ def choose_recipes(
         How much more smoothness counts: factor on the powers of roughness.
     is_impulsive : bool, optional
         Whether the noise hits some vertices only.
+    connectivity : Connectivity, optional
+        Neighborhoods of the mesh, if they are known already.
 
     Returns
     -------
@@ -100,7 +107,7 @@ def choose_recipes(
     """
     is_large = surface.n_faces > PAIRED_UP_TO
     recipes = [recipe for recipe in RECIPES if recipe.is_quick or not is_large]
-    trial = Trial(noisy, surface, sigma, recipes, blocks)
+    trial = Trial(noisy, surface, sigma, recipes, blocks, connectivity)
     if trial.is_empty:
         tick(1.0)
         return (recipes[0],)
@@ -134,7 +141,8 @@ def choose_recipes(
         choices, judged = choices + pairs, np.concatenate((judged, judge(pairs)))
         is_good = np.append(is_good, [one and other for one, other in combinations(is_good, 2)])
     first = choices[int(np.argmin(np.where(is_good, scores(judged, strength=strength), np.inf)))]
-    rehearsal = Rehearsal(trial, trial.ground_mean_of(first), is_impulsive=is_impulsive)
+    surface_points = trial.ground_mean_of(first, lambda: tick(0.0))
+    rehearsal = Rehearsal(trial, surface_points, is_impulsive=is_impulsive)
     rehearsal.run(best, lambda: tick(share))
     tick(share * trial.n_draws * (len(recipes) - len(best)))
     angles = np.array([rehearsal.angle(choice) for choice in choices])
@@ -162,4 +170,4 @@ def scores(
     for rough, power in zip(roughness, of_roughness, strict=True):
         smallest = max(float(rough.min()), TINY_ROUGHNESS)
         found = found * (np.maximum(rough, smallest) / smallest) ** (strength * power)
-    return found if angles is None else found * angles**of_angle
+    return found if angles is None else found * np.maximum(angles, TINY_ANGLE) ** of_angle

@@ -107,6 +107,7 @@ def automatic_filter(
             lambda share: advance(CHOOSING_SHARE * share),
             strength=settings.strength,
             is_impulsive=noise.is_impulsive,
+            connectivity=connectivity,
         )
         step = (1.0 - CHOOSING_SHARE) / n_ticks(recipes)
         problem = NormalProblem(noisy, surface, connectivity, sigma, blocks)

@@ -95,9 +95,10 @@ def smooth_positions(
 def low_pass_changes(
     fields: NDArray[np.floating], rings: RingAverages, numbers: Sequence[int]
 ) -> list[NDArray[np.floating]]:
-    """Return what low-passes change of fields, for several numbers of averages at the cost of the largest.
+    """Return what low-passes change of fields, for several numbers of averages.
 
-    Fields and changes have shape (n, C) and are numbered as inside `rings`. See `smooth_positions`.
+    Fields and changes have shape (n, C) and are numbered as inside `rings`. See `smooth_positions`. It costs
+    as much as the largest number alone, but where neighbors are not neighbors of each other, all of them.
     """
     if not rings.is_symmetric:
         return [_step_by_step(fields, rings, number) - fields for number in numbers]
@@ -110,7 +111,10 @@ def low_pass_changes(
 def often_averaged(
     fields: NDArray[np.floating], rings: RingAverages, n_averages: int
 ) -> NDArray[np.floating]:
-    """Return A^k of fields, shape (n, C), for smoothing: the smallest terms of the series are left out."""
+    """Return A^k of fields, shape (n, C), for smoothing: the smallest terms of the series are left out.
+
+    The fields are used up.
+    """
     if not rings.is_symmetric:
         for _ in range(n_averages):
             fields = _half_way(fields, rings)

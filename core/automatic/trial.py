@@ -15,7 +15,7 @@ from ..normals.means import padded
 from ..normals.neighbors import Ragged
 from ..normals.noise_sample import area_vectors, scrambled, vertex_means
 from ..normals.pilot import unit_columns
-from ..surface.connectivity import connect
+from ..surface.connectivity import Connectivity, connect
 from ..surface.surface_mesh import SurfaceMesh
 from .patches import trial_part
 from .problem import NormalProblem
@@ -62,6 +62,8 @@ class Trial:
         What is run.
     blocks : Blocks
         Threads to work on.
+    connectivity : Connectivity, optional
+        Neighborhoods of the mesh, if they are known already.
 
     Attributes
     ----------
@@ -80,6 +82,7 @@ class Trial:
         sigma: float,
         recipes: Sequence[Recipe],
         blocks: Blocks,
+        connectivity: Connectivity | None = None,
     ) -> None:
         part = trial_part(noisy, surface)
         # A part is so small that handing its blocks to threads costs more than they save.
@@ -88,8 +91,13 @@ class Trial:
         self.points = np.ascontiguousarray(noisy[:, part.vertices])
         self._connectivity = connect(part.surface, self.blocks)
         is_wide = part.surface is not surface and surface.n_faces <= WIDE_UP_TO
+        known = connectivity
         if is_wide:
-            self.ground = NormalProblem(noisy, surface, connect(surface, blocks), sigma, blocks)
+            known = connectivity or connect(surface, blocks)
+            # Elsewhere low-passes are made average by average, which takes too long on a whole mesh.
+            is_wide = not known.is_non_manifold.any()
+        if is_wide and known is not None:
+            self.ground = NormalProblem(noisy, surface, known, sigma, blocks)
             self._in_ground: NDArray[np.integer] | slice = part.vertices
             self.problem = self.problem_at(self.points, self.ground.sample[part.vertices])
         else:
@@ -175,11 +183,16 @@ class Trial:
         """Return the mean, shape (3, n), of the results of some recipes."""
         return np.mean([self.results[index] for index in choice], axis=0, dtype=self.points.dtype)
 
-    def ground_mean_of(self, choice: Sequence[int]) -> NDArray[np.floating]:
-        """Return the mean of what some recipes make of the ground, in columns."""
+    def ground_mean_of(
+        self, choice: Sequence[int], tick: Callable[[], None] = lambda: None
+    ) -> NDArray[np.floating]:
+        """Return the mean of what some recipes make of the ground, in columns; `tick` is called often."""
         if self.ground is self.problem:
             return self.mean_of(choice)
-        results = [self.ground.run(self.recipes[index], is_unfolded=False) for index in choice]
+        results = [
+            self.ground.run(self.recipes[index], None, lambda _: tick(), is_unfolded=False)
+            for index in choice
+        ]
         return np.mean(results, axis=0, dtype=self.points.dtype)
 
 

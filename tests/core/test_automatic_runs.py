@@ -8,10 +8,12 @@ import numpy as np
 import pytest
 from checks import assert_same_bits
 from framelet.core import PRESETS, SurfaceMesh, connect, denoise
-from framelet.core.automatic import choose
+from framelet.core.automatic import choose, patches
 from framelet.core.automatic import filter as engine
 from framelet.core.automatic.problem import NormalProblem
 from framelet.core.automatic.recipes import RECIPES, n_ticks
+from framelet.core.automatic.rehearsal import Rehearsal
+from framelet.core.automatic.trial import Trial
 from framelet.core.blocks import Blocks
 from framelet.core.denoising.constraints import find_constraints
 from kinds import ALONE, KIND, KINDS
@@ -96,11 +98,71 @@ def test_every_kind_of_mesh_gets_a_recipe(kind, sigma, dtype, rng):
     assert found.dtype == dtype and np.isfinite(found).all()
 
 
-def test_the_choice_does_not_depend_on_threads(rng):
+def test_the_choice_does_not_depend_on_threads(rng, monkeypatch):
+    """On a whole small mesh, and on patches, where low-passes and the rehearsed surface are on threads."""
     mesh = noisy(triangle_torus(20, 24), rng)
     points = mesh.vertices.T.astype(np.float32)
-    chosen = [choose.choose_recipes(points, mesh, 0.1, blocks) for blocks in (ALONE, Blocks(2, 100))]
-    assert chosen[0] == chosen[1]
+    for whole in (patches.WHOLE, 100):
+        monkeypatch.setattr(patches, "WHOLE", whole)
+        monkeypatch.setattr(patches, "FACES_IN_PATCH", 60)
+        with Blocks(2, 100) as several:
+            chosen = [choose.choose_recipes(points, mesh, 0.1, blocks) for blocks in (ALONE, several)]
+        assert chosen[0] == chosen[1]
+
+
+@pytest.mark.parametrize("wanted", [0, 5])
+def test_the_rehearsal_has_the_last_word(wanted, rng, monkeypatch):
+    """Where risks and roughness are alike, the smallest angle wins; angles of 0 leave the choice to them."""
+    mesh = noisy(triangle_torus(10, 12), rng)
+    points = mesh.vertices.T.copy()
+    monkeypatch.setattr(choose, "HOPELESS", 1e9)
+    monkeypatch.setattr(choose, "N_PAIRED", len(RECIPES))
+    plain = choose.choose_recipes(points, mesh, 0.1, ALONE)
+    monkeypatch.setattr(Rehearsal, "angle", lambda _, choice: 1e-2 if choice == (wanted,) else 1e6)
+    assert choose.choose_recipes(points, mesh, 0.1, ALONE) == (RECIPES[wanted],)
+    monkeypatch.setattr(Rehearsal, "angle", lambda *_: 0.0)
+    level = choose.choose_recipes(points, mesh, 0.1, ALONE)
+    monkeypatch.setattr(Rehearsal, "angle", lambda *_: 7.0)
+    assert choose.choose_recipes(points, mesh, 0.1, ALONE) == level
+    assert len(plain) in (1, 2)
+
+
+def test_hopeless_recipes_are_not_run_again(rng, monkeypatch):
+    """Those that move vertices much farther than the noise did, or than most recipes do."""
+    mesh = noisy(triangle_torus(10, 12), rng)
+    points, probed = mesh.vertices.T.copy(), []
+    divergences = Trial.divergences
+
+    def spy(trial, wanted, tick):
+        spread = np.mean(trial.heights**2, axis=1)
+        assert np.array_equal(wanted, np.flatnonzero(spread <= 1.5 * max(1.0, np.median(spread))))
+        probed.append(len(wanted))
+        return divergences(trial, wanted, tick)
+
+    monkeypatch.setattr(Trial, "divergences", spy)
+    # Measured far too weak, all move vertices too far, and most are tried all the same.
+    for sigma in (0.1, 0.001):
+        choose.choose_recipes(points, mesh, sigma, ALONE)
+    assert len(RECIPES) / 2 <= min(probed) and max(probed) <= len(RECIPES)
+
+
+def test_pairs_for_the_first_choice_are_good_alone(rng, monkeypatch):
+    mesh, seen = noisy(triangle_torus(10, 12), rng), []
+    first = Trial.ground_mean_of
+    monkeypatch.setattr(Trial, "ground_mean_of", lambda *given: seen.append(given[1]) or first(*given))
+    monkeypatch.setattr(choose, "NEARLY_BEST", 1.0)
+    choose.choose_recipes(mesh.vertices.T.copy(), mesh, 0.1, ALONE)
+    assert [len(choice) for choice in seen] == [1]
+
+
+def test_whether_noise_is_impulsive_is_passed_on(rng, monkeypatch):
+    mesh, seen = triangle_torus(30, 40), []
+    is_hit = rng.random(mesh.n_vertices) < 0.5
+    far = noisy(mesh, rng, 0.2).vertices
+    spiky = mesh.with_vertices(np.where(is_hit[:, None], far, mesh.vertices))
+    monkeypatch.setattr(engine, "choose_recipes", lambda *_, **named: seen.append(named) or (RECIPES[0],))
+    report = denoise(spiky, AUTO).report
+    assert [named["is_impulsive"] for named in seen] == [report.noise.is_impulsive] == [True]
 
 
 def test_where_no_face_has_an_area_there_is_nothing_to_try():
@@ -109,7 +171,11 @@ def test_where_no_face_has_an_area_there_is_nothing_to_try():
     assert recipes == (RECIPES[0],) and ticks == [1.0]
 
 
-def test_large_meshes_take_one_recipe(rng, monkeypatch):
-    mesh = noisy(triangle_torus(), rng)
+def test_large_meshes_take_one_quick_recipe(rng, monkeypatch):
+    mesh, seen = noisy(triangle_torus(), rng), []
+    begin = Trial.__init__
+    monkeypatch.setattr(Trial, "__init__", lambda *given: seen.append(given[4]) or begin(*given))
     monkeypatch.setattr(choose, "PAIRED_UP_TO", mesh.n_faces - 1)
     assert len(choose.choose_recipes(mesh.vertices.T.copy(), mesh, 0.1, ALONE)) == 1
+    assert seen == [[recipe for recipe in RECIPES if not recipe.n_rounds and not recipe.is_refined]]
+    assert len(seen[0]) < len(RECIPES)

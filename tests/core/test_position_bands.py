@@ -115,6 +115,7 @@ def test_refined_recipes_take_their_pilot_from_the_rest(recipe, rng):
     one, other = problem(), problem()
     pilot = one.run(recipe.pilot, is_unfolded=False)
     found = one.run(recipe, is_unfolded=False)
+    assert_same_bits(one._pilots[recipe.pilot], pilot)
     assert_same_bits(found, other.run(recipe, is_unfolded=False))
     vectors = np.zeros((mesh.n_vertices, 3))
     for corners in faces_of(mesh):

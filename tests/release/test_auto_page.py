@@ -77,7 +77,7 @@ def test_the_number_of_recipes():
         f"The {choose.N_PAIRED} best recipes run on that",
         f"is within {choose.NEARLY_BEST - 1:.0%} of the least one".replace("%", " %"),
         f"Means of two of the {choose.N_PAIRED} best results",
-        f"Beyond {choose.PAIRED_UP_TO:,} faces only single recipes",
+        f"Beyond {choose.PAIRED_UP_TO:,} faces only single recipes are candidates",
         f"up to {trial.WIDE_UP_TO:,} faces they are tried on the whole mesh",
     ],
 )
