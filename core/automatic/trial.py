@@ -39,7 +39,6 @@ LARGEST_RESPONSE = 3.0
 WIDENINGS = 3
 """Averages of normals over the faces around, so that strong noise does not tilt the directions."""
 
-
 WIDE_UP_TO = 100_000
 """Faces up to which low-passes are tried on the whole mesh: wide ones reach over the rims of patches."""
 
@@ -90,19 +89,17 @@ class Trial:
         self.surface, self.sigma, self.recipes = part.surface, sigma, recipes
         self.points = np.ascontiguousarray(noisy[:, part.vertices])
         self._connectivity = connect(part.surface, self.blocks)
-        is_wide = part.surface is not surface and surface.n_faces <= WIDE_UP_TO
-        known = connectivity
-        if is_wide:
-            known = connectivity or connect(surface, blocks)
-            # Elsewhere low-passes are made average by average, which takes too long on a whole mesh.
-            is_wide = not known.is_non_manifold.any()
-        if is_wide and known is not None:
-            self.ground = NormalProblem(noisy, surface, known, sigma, blocks)
-            self._in_ground: NDArray[np.integer] | slice = part.vertices
-            self.problem = self.problem_at(self.points, self.ground.sample[part.vertices])
-        else:
+        whole: Connectivity | None = None
+        if part.surface is not surface and surface.n_faces <= WIDE_UP_TO:
+            whole = connectivity or connect(surface, blocks)
+        # Where vertices are not manifold low-passes are made average by average: too long for a whole mesh.
+        if whole is None or whole.is_non_manifold.any():
             self.problem = self.ground = self.problem_at(self.points)
-            self._in_ground = slice(None)
+            self._in_ground: NDArray[np.integer] | slice = slice(None)
+        else:
+            self.ground = NormalProblem(noisy, surface, whole, sigma, blocks)
+            self._in_ground = part.vertices
+            self.problem = self.problem_at(self.points, self.ground.sample[part.vertices])
         self._ground_directions = _wide_normals(self.ground.noisy, self.ground.surface, self.ground.at_vertex)
         self.directions = self.in_part(self._ground_directions)
         self.counted = part.counts & self.directions.any(axis=0)
