@@ -20,7 +20,7 @@ def chosen_texts(report: DenoiseReport) -> dict[str, str]:
     Automatic denoising cleans normals with the pairwise frame between faces. Its λ is a multiple of what the
     noise makes of the differences between neighboring faces, its levels are the bands of weighted averages.
     Where it took a low-pass of positions instead, there are no λ and μ. Where it took the mean of two
-    recipes, there is a line for each.
+    recipes, there is a line for each, and one for how the result was finished.
     """
     settings = report.settings
     if settings.method == "POSITIONS" and report.noise is not None:
@@ -29,14 +29,16 @@ def chosen_texts(report: DenoiseReport) -> dict[str, str]:
         return {}
     from ..core.automatic.recipes import RECIPES
 
-    labels = report.recipe.split(" and ")
+    recipe_part, _, finish_part = report.recipe.partition(" (")
+    labels = recipe_part.split(" and ")
     # "Flat and sharp" has the same word in it that stands between two recipes.
     recipes = [recipe for recipe in RECIPES if _is_named(recipe.label.split(" and "), labels)]
     texts = [_recipe_texts(recipe) for recipe in recipes]
     names = texts[0] if texts else {}
     lines = {name: "\n".join(dict.fromkeys(each[name] for each in texts if each[name])) for name in names}
+    chosen = [*(recipe_lines(recipe.label) for recipe in recipes), finish_part.rstrip(")")]
     return {
-        "chosen_recipe": "\n".join(recipe_lines(recipe.label) for recipe in recipes) or report.recipe,
+        "chosen_recipe": "\n".join(filter(None, chosen)) if recipes else report.recipe,
         **lines,
     }
 

@@ -13,24 +13,17 @@ from numpy.typing import NDArray
 from ..blocks import Blocks
 from ..surface.connectivity import Connectivity
 from ..surface.surface_mesh import SurfaceMesh
-from .recipes import RECIPES, Recipe
+from .finish import FINISHES, N_PASSES
+from .recipes import RECIPES
 from .rehearsal import Rehearsal
 from .roughness import Roughness
-from .trial import Trial
+from .run_choice import Choice, finished
+from .score import risk_of, scores
+from .trial import Trial, mean_of
 
 HOPELESS = 1.5
 """A recipe whose mean squared displacement is so many times that of the noise, or of most recipes, is given
 up without probes: they do not tell more than that apart."""
-
-UNCERTAINTY = 0.08
-"""In units of the variance of the noise: how well risks are known. It is added to them, so that risks that
-are all nearly zero leave the choice to smoothness."""
-
-SMOOTHNESS = (0.25, 0.25)
-"""Powers of the two measures of roughness that risks are multiplied by for a first choice."""
-
-REHEARSED = (0.7, 0.2, 0.1, 1.0)
-"""Powers of the risk, of two measures of roughness, and of the rehearsed angle, for the last choice."""
 
 N_PAIRED = 14
 """Recipes, the best ones alone, that are rehearsed and whose pairs are looked at."""
@@ -39,17 +32,11 @@ NEARLY_BEST = 1.1
 """How many times the least score a recipe may have, alone, to be in a pair that is the first choice. Where
 the risk is wrong, two that do too little may look good together, and a rehearsal on them would like them."""
 
-TINY_ROUGHNESS = 1e-4
-"""Differences of normals below this are rounding."""
-
-TINY_ANGLE = 1e-3
-"""Degrees; where no angle can be measured, or all are rounding, risk and roughness decide alone."""
-
 PAIRED_UP_TO = 500_000
 """Faces up to which two recipes may be run and averaged, and slow ones run; the time of larger meshes is
 better spent on one."""
 
-Choice = tuple[int, ...]
+Numbers = tuple[int, ...]
 """Numbers of recipes whose results are averaged."""
 
 
@@ -63,8 +50,8 @@ def choose_recipes(
     *,
     is_impulsive: bool = False,
     connectivity: Connectivity | None = None,
-) -> tuple[Recipe, ...]:
-    """Try all recipes on parts of a mesh and return the best one, or the best two to be averaged.
+) -> Choice:
+    """Try all recipes on parts of a mesh and return the best one, or the best two, and what is to follow.
 
     Parameters
     ----------
@@ -87,8 +74,8 @@ def choose_recipes(
 
     Returns
     -------
-    tuple of Recipe
-        One or two.
+    Choice
+        One recipe or two, and how they are finished.
 
     Notes
     -----
@@ -104,14 +91,18 @@ def choose_recipes(
 
     Two results whose errors differ are better on average than each of them. The risk of a mean of two results
     needs no further run.
+
+    Ways to finish what was chosen are judged by the same score.
     """
     is_large = surface.n_faces > PAIRED_UP_TO
     recipes = [recipe for recipe in RECIPES if recipe.is_quick or not is_large]
     trial = Trial(noisy, surface, sigma, recipes, blocks, connectivity)
     if trial.is_empty:
         tick(1.0)
-        return (recipes[0],)
-    share = 1.0 / ((1 + trial.n_probes + trial.n_draws) * len(recipes))
+        return Choice((recipes[0],))
+    finishes = [finish for finish in FINISHES if finish.is_quick or not is_large]
+    n_passes = 0 if is_large else N_PASSES
+    share = 1.0 / ((1 + trial.n_probes + trial.n_draws) * (len(recipes) + n_passes))
     trial.run(lambda: tick(share))
     spread = np.mean(trial.heights**2, axis=1)
     # Where the noise is measured too weak, all that do away with it move vertices farther than it says.
@@ -120,12 +111,12 @@ def choose_recipes(
     tick(share * trial.n_probes * (len(recipes) - len(hopeful)))
     rough = Roughness(trial.problem, trial.counted)
 
-    def judge(choices: Sequence[Choice]) -> NDArray[np.float64]:
+    def judge(choices: Sequence[Numbers]) -> NDArray[np.float64]:
         """Return a risk and two measures of roughness for each choice, shape (n, 3)."""
         judged = []
         for choice in choices:
             height = trial.heights[list(choice)].mean(axis=0)
-            risk = np.mean(height * height) - 1.0 + 2.0 * divergence[list(choice)].mean()
+            risk = risk_of(height, float(divergence[list(choice)].mean()))
             judged.append((risk, *rough.of(trial.mean_of(choice))))
         return np.array(judged).reshape(-1, 3)
 
@@ -134,10 +125,10 @@ def choose_recipes(
     alone = scores(judged, strength=strength)
     order = np.sort(np.argsort(alone, kind="stable")[:N_PAIRED])
     best = [singles[place][0] for place in order]
-    choices: list[Choice] = [(index,) for index in best]
+    choices: list[Numbers] = [(index,) for index in best]
     judged, is_good = judged[order], alone[order] <= NEARLY_BEST * alone.min()
     if not is_large and len(best) > 1:
-        pairs: list[Choice] = list(combinations(best, 2))
+        pairs: list[Numbers] = list(combinations(best, 2))
         choices, judged = choices + pairs, np.concatenate((judged, judge(pairs)))
         is_good = np.append(is_good, [one and other for one, other in combinations(is_good, 2)])
     first = choices[int(np.argmin(np.where(is_good, scores(judged, strength=strength), np.inf)))]
@@ -146,28 +137,24 @@ def choose_recipes(
     rehearsal.run(best, lambda: tick(share))
     tick(share * trial.n_draws * (len(recipes) - len(best)))
     angles = np.array([rehearsal.angle(choice) for choice in choices])
-    last = int(np.argmin(scores(judged, angles, strength=strength)))
-    return tuple(recipes[index] for index in choices[last])
+    last = choices[int(np.argmin(scores(judged, angles, strength=strength)))]
 
+    def judge_finishes() -> NDArray[np.float64]:
+        """Return the same three numbers for each way to finish the last choice."""
+        results = list(finished(trial.problem, trial.mean_of(last), finishes, after_pass=lambda: tick(share)))
+        follows = np.zeros(len(results))
+        for probe in trial.probes:
+            moved = finished(
+                probe.problem, mean_of(probe.results, last), finishes, after_pass=lambda: tick(share)
+            )
+            follows += [trial.follows(probe, *pair) for pair in zip(moved, results, strict=True)]
+        return np.array(
+            [
+                (risk_of(trial.height_of(result), divergence), *rough.of(result))
+                for result, divergence in zip(results, follows / trial.n_probes, strict=True)
+            ]
+        )
 
-def scores(
-    judged: NDArray[np.float64], angles: NDArray[np.float64] | None = None, strength: float = 1.0
-) -> NDArray[np.float64]:
-    """Return what is to be small, shape (n,).
-
-    Parameters
-    ----------
-    judged : ndarray, shape (n, 3)
-        Risks in variances of the noise, and two measures of roughness.
-    angles : ndarray, shape (n,), optional
-        Angles of a rehearsal; without them, the score is that of the first choice.
-    strength : float, optional
-        Factor on the powers of roughness: who asks for more than was measured wants it smoother.
-    """
-    risk, *roughness = judged.T
-    of_risk, *of_roughness, of_angle = (1.0, *SMOOTHNESS, 0.0) if angles is None else REHEARSED
-    found = (risk - min(0.0, float(risk.min())) + UNCERTAINTY) ** of_risk
-    for rough, power in zip(roughness, of_roughness, strict=True):
-        smallest = max(float(rough.min()), TINY_ROUGHNESS)
-        found = found * (np.maximum(rough, smallest) / smallest) ** (strength * power)
-    return found if angles is None else found * np.maximum(angles, TINY_ANGLE) ** of_angle
+    finish_angles = rehearsal.angles_finished(last, finishes, lambda: tick(share))
+    finish = int(np.argmin(scores(judge_finishes(), finish_angles, strength=strength)))
+    return Choice(tuple(recipes[index] for index in last), finishes[finish])

@@ -18,7 +18,7 @@ from ..surface.connectivity import Connectivity
 from ..surface.surface_mesh import SurfaceMesh
 from .choose import choose_recipes
 from .problem import NormalProblem
-from .recipes import n_ticks
+from .run_choice import n_ticks, run_choice
 
 LEAST_NOISE = 0.004
 """Noise in mean edge lengths below which a mesh counts as clean and is left alone."""
@@ -99,7 +99,7 @@ def automatic_filter(
             raise _Stopped
 
     try:
-        recipes = choose_recipes(
+        choice = choose_recipes(
             noisy,
             surface,
             sigma,
@@ -109,10 +109,9 @@ def automatic_filter(
             is_impulsive=noise.is_impulsive,
             connectivity=connectivity,
         )
-        step = (1.0 - CHOOSING_SHARE) / n_ticks(recipes)
+        step = (1.0 - CHOOSING_SHARE) / n_ticks(choice)
         problem = NormalProblem(noisy, surface, connectivity, sigma, blocks)
-        points = problem.run_all(recipes, constraints, lambda change: advance(step, change))
+        points = run_choice(problem, choice, constraints, lambda change: advance(step, change))
     except _Stopped:
         return Automatic(noisy, 0, True, noise, "")
-    label = " and ".join(recipe.label for recipe in recipes)
-    return Automatic(points, max(recipe.vertex_steps for recipe in recipes), False, noise, label)
+    return Automatic(points, choice.vertex_steps, False, noise, choice.label)

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..normals.centroids import face_centroids
+from ..surface.connectivity import connect
 from ..surface.surface_mesh import SurfaceMesh
 
 WHOLE = 11000
@@ -19,6 +20,10 @@ N_PATCHES = 10
 FACES_IN_PATCH = 1100
 INNER = 0.6
 """Share of a patch's radius within which vertices count: farther out the cut is too near."""
+
+TRIMMINGS = 8
+"""How often, at most, faces are dropped at the rims where these touch themselves: at vertices that are not
+manifold low-passes take several times as long."""
 
 _SEED_CANDIDATES = 20000
 
@@ -61,12 +66,25 @@ def trial_part(points: NDArray[np.floating], surface: SurfaceMesh) -> Trial:
         inner = near[distance <= INNER**2 * radius]
         is_inner[_corners_of(surface, inner)] = True
     faces = np.flatnonzero(is_chosen)
-    corners = _corners_of(surface, faces)
-    vertices, local = np.unique(corners, return_inverse=True)
+    vertices, part = _part_of(surface, faces)
+    for _ in range(TRIMMINGS):
+        is_bad = connect(part).is_non_manifold & ~is_inner[vertices]
+        if not is_bad.any():
+            break
+        face_of_corner = np.repeat(np.arange(part.n_faces), part.face_sizes())
+        touched = np.unique(face_of_corner[is_bad[part.corner_vertex]])
+        is_inner[_corners_of(surface, faces[touched])] = False
+        faces = np.delete(faces, touched)
+        vertices, part = _part_of(surface, faces)
+    return Trial(vertices, part, is_inner[vertices])
+
+
+def _part_of(surface: SurfaceMesh, faces: NDArray[np.intp]) -> tuple[NDArray[np.int32], SurfaceMesh]:
+    """Return the vertices of some faces, and a mesh of these."""
+    vertices, local = np.unique(_corners_of(surface, faces), return_inverse=True)
     ends = np.cumsum(surface.face_sizes()[faces])[:-1]
     polygons = [polygon.tolist() for polygon in np.split(local.reshape(-1), ends)]
-    part = SurfaceMesh.from_faces(surface.vertices[vertices], polygons)
-    return Trial(vertices, part, is_inner[vertices])
+    return vertices, SurfaceMesh.from_faces(surface.vertices[vertices], polygons)
 
 
 def _nearest(

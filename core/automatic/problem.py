@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from functools import cached_property, partial
 from typing import NamedTuple
 
@@ -32,6 +32,7 @@ from ..normals.vertex_fit import VertexFit
 from ..surface.connectivity import Connectivity
 from ..surface.surface_mesh import SurfaceMesh
 from ..transform.adaptive_level import Neighbors
+from .finish import Pass
 from .position_bands import shrink_positions
 from .recipes import PILOTS, Recipe
 from .smooth_positions import RingAverages, smooth_positions
@@ -98,7 +99,7 @@ class NormalProblem:
         """Median differences that the noise makes between neighboring normals, by the averages before."""
         self._starts: dict[int, _Start] = {}
         self._pilots: dict[Recipe, NDArray[np.floating]] = {}
-        self._is_frugal = False
+        self.is_frugal = False
         """Whether nothing is kept for other recipes that is made again quickly."""
 
     @property
@@ -151,7 +152,7 @@ class NormalProblem:
                 median_difference(little, neighbors, self.blocks) / TINY_STEP,
                 median_difference(normals, neighbors, self.blocks),
             )
-        return _Start(points, None if self._is_frugal else normals, sample, {})
+        return _Start(points, None if self.is_frugal else normals, sample, {})
 
     def _normals_of(self, start: _Start) -> NDArray[np.floating]:
         """Return the normals, shape (3, F), that a recipe begins with."""
@@ -174,23 +175,47 @@ class NormalProblem:
             )
             give_back(self.surface.n_faces)
         normals = start.pilots[recipe.threshold]
-        if self._is_frugal:
+        if self.is_frugal:
             del start.pilots[recipe.threshold]
         for range_sigma in recipe.range_sigmas:
-            weights = self.averages.weights(normals, range_sigma)
             guides = [normals]
             del normals  # handed over, so that its memory is free once the fields are made
-            cleaned = shrink_inside(
-                partial(self._fields_around, start, guides),
-                self.averages,
-                weights,
-                recipe.n_bands,
-                recipe.caution,
-                lambda: tick(0.0),
-            )
-            del weights
-            normals = unit_columns(cleaned, self._normals_of(start))
+            normals = self._shrunk(start, guides, range_sigma, recipe.caution, recipe.n_bands, tick)
         return normals
+
+    def _shrunk(
+        self,
+        start: _Start,
+        guides: list[NDArray[np.floating]],
+        range_sigma: float,
+        caution: float,
+        n_bands: int,
+        tick: Tick,
+    ) -> NDArray[np.floating]:
+        """Return unit normals, shape (3, F), by a pass of shrinkage. Guides are taken out of the list."""
+        weights = self.averages.weights(guides[0], range_sigma)
+        cleaned = shrink_inside(
+            partial(self._fields_around, start, guides),
+            self.averages,
+            weights,
+            n_bands,
+            caution,
+            lambda: tick(0.0),
+        )
+        del weights
+        return unit_columns(cleaned, self._normals_of(start))
+
+    def pass_again(
+        self,
+        points: NDArray[np.floating],
+        again: Pass,
+        constraints: Constraints | None = None,
+        tick: Tick = lambda _: None,
+    ) -> NDArray[np.floating]:
+        """Return positions, shape (3, N), after one more pass whose pilot is a result."""
+        guides = [normals_of(points, self.surface, self.blocks)]
+        normals = self._shrunk(self.start(0), guides, again.range_sigma, again.caution, again.n_bands, tick)
+        return self.fitted(points, normals, again.vertex_steps, constraints, tick)
 
     def _averaged_in_rounds(
         self, recipe: Recipe, normals: NDArray[np.floating], tick: Tick
@@ -264,8 +289,8 @@ class NormalProblem:
                 self._pilots[pilot] = points
             return points
         if normals is None:
-            normals = self._normals_around(points)
-        points = unfold(points, normals, self.surface, self._ring_mean)
+            normals = self.normals_around(points)
+        points = unfold(points, normals, self.surface, self.ring_mean)
         if constraints is not None:
             constraints.apply(points, self.noisy)
         return points
@@ -276,36 +301,26 @@ class NormalProblem:
             pilot = self._pilots[recipe.pilot]
         else:
             pilot = self.run(recipe.pilot, None, tick, is_unfolded=False)
-        at_vertices = vertex_means(
-            area_vectors(pilot, self.surface, self.blocks), self.at_vertex, self.blocks
-        )
-        directions = unit_columns(at_vertices, np.zeros_like(at_vertices))
+        directions = self.vertex_normals(pilot)
         noise = self.sigma * self.sample
         points = shrink_positions(self.noisy, noise, pilot, directions, self.rings, recipe.position_caution)
         tick(0.0)
         return points
 
-    def run_all(
-        self, recipes: Sequence[Recipe], constraints: Constraints, tick: Tick = lambda _: None
-    ) -> NDArray[np.floating]:
-        """Return the mean, shape (3, N), of what recipes give."""
-        self._is_frugal = len(recipes) == 1 and self.surface.n_faces >= MANY_ITEMS
-        points = self.run(recipes[0], constraints, tick)
-        if len(recipes) > 1:
-            points = sum((self.run(recipe, constraints, tick) for recipe in recipes[1:]), points)
-            points = points / points.dtype.type(len(recipes))
-            points = unfold(points, self._normals_around(points), self.surface, self._ring_mean)
-            constraints.apply(points, self.noisy)
-        return points
+    def vertex_normals(self, points: NDArray[np.floating]) -> NDArray[np.floating]:
+        """Return unit normals at the vertices, shape (3, N), weighted by area; zero at loose vertices."""
+        areas = area_vectors(points, self.surface, self.blocks)
+        at_vertices = vertex_means(areas, self.at_vertex, self.blocks)
+        return unit_columns(at_vertices, np.zeros_like(at_vertices))
 
-    def _normals_around(self, points: NDArray[np.floating]) -> NDArray[np.floating]:
+    def normals_around(self, points: NDArray[np.floating]) -> NDArray[np.floating]:
         """Return, for each face, the mean normal of the faces around its corners, shape (3, F)."""
         areas = area_vectors(points, self.surface, self.blocks)
         at_corners = vertex_means(areas, self.at_vertex, self.blocks)
         around = face_centroids(at_corners, self.surface, self.blocks)
         return unit_columns(around, np.zeros_like(around))
 
-    def _ring_mean(self, points: NDArray[np.floating]) -> NDArray[np.floating]:
+    def ring_mean(self, points: NDArray[np.floating]) -> NDArray[np.floating]:
         """Return the means over the neighbors of each vertex, shape (3, N)."""
         return self.rings.mean_of(points)
 

@@ -16,7 +16,10 @@ from numpy.typing import NDArray
 
 from ..normals.noise_sample import area_vectors, normals_of, vertex_means
 from ..normals.pilot import unit_columns
-from .trial import Trial
+from .finish import Finish
+from .problem import NormalProblem
+from .run_choice import finished
+from .trial import Trial, mean_of
 
 NOISE_PERIODS = (331.0, 449.0, 571.0)
 """Periods of the digits whose sum stands for Gaussian noise; see `noise_sample.scrambled`."""
@@ -54,7 +57,7 @@ class Rehearsal:
         own = np.repeat(np.arange(trial.surface.n_faces), trial.surface.face_sizes())
         n_counted = np.bincount(own, trial.counted[corners], minlength=trial.surface.n_faces)
         self._faces = np.flatnonzero((n_counted == trial.surface.face_sizes()) & (n_counted > 0))
-        self._results: list[dict[int, NDArray[np.floating]]] = []
+        self._runs: list[tuple[NormalProblem, dict[int, NDArray[np.floating]]]] = []
 
     def _noise(self, draw: int, is_impulsive: bool) -> NDArray[np.floating]:
         """Return how far each vertex of the ground is moved."""
@@ -78,18 +81,31 @@ class Rehearsal:
             for index, result in zip(wanted, self._trial.runs(problem, noisy, wanted), strict=True):
                 results[index] = result
                 tick()
-            self._results.append(results)
+            self._runs.append((problem, results))
 
     def angle(self, choice: Sequence[int]) -> float:
         """Return the mean angle in degrees between the normals of the surface and those of a mean of results.
 
         Only faces count whose vertices all do.
         """
+        return self._angle([mean_of(results, choice) for _, results in self._runs])
+
+    def angles_finished(
+        self, choice: Sequence[int], finishes: Sequence[Finish], tick: Callable[[], None]
+    ) -> NDArray[np.float64]:
+        """Return the same, shape (n,), for each way to finish a mean of results; `tick` follows passes."""
+        ways = [
+            finished(problem, mean_of(results, choice), finishes, after_pass=tick)
+            for problem, results in self._runs
+        ]
+        return np.array([self._angle(results) for results in zip(*ways, strict=True)])
+
+    def _angle(self, results: Sequence[NDArray[np.floating]]) -> float:
+        """Return the mean angle in degrees over the draws, of each of which there is a result (3, n)."""
         if not len(self._faces):
             return 0.0
         angles = []
-        for results in self._results:
-            points = np.mean([results[index] for index in choice], axis=0, dtype=self._normals.dtype)
+        for points in results:
             apart = normals_of(points, self._trial.surface)[:, self._faces] - self._normals[:, self._faces]
             half = 0.5 * np.sqrt(np.einsum("cn,cn->n", apart, apart, dtype=np.float64))
             angles.append(2.0 * np.mean(np.arcsin(np.minimum(half, 1.0))))

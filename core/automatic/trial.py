@@ -4,7 +4,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,6 +42,24 @@ WIDENINGS = 3
 
 WIDE_UP_TO = 100_000
 """Faces up to which low-passes are tried on the whole mesh: wide ones reach over the rims of patches."""
+
+
+class Probe(NamedTuple):
+    """The part with its vertices moved a little.
+
+    Attributes
+    ----------
+    problem : NormalProblem
+        The part, moved.
+    along : ndarray, shape (3, n)
+        Signs times directions, zero where a vertex was not moved.
+    results : dict
+        What recipes, by their numbers, make of it, shape (3, n).
+    """
+
+    problem: NormalProblem
+    along: NDArray[np.floating]
+    results: dict[int, NDArray[np.floating]]
 
 
 class Trial:
@@ -104,6 +123,7 @@ class Trial:
         self.directions = self.in_part(self._ground_directions)
         self.counted = part.counts & self.directions.any(axis=0)
         self.is_empty = not self.counted.any()
+        self.probes: list[Probe] = []
         self.n_probes, self.n_draws = (
             min(most, -(-n_faces // part.surface.n_faces)) for most, n_faces in (N_PROBES, N_DRAWS)
         )
@@ -151,10 +171,14 @@ class Trial:
         self.results, heights = [], []
         for result in self.runs(self.problem, self.ground.noisy, range(len(self.recipes))):
             self.results.append(result)
-            height = np.einsum("cn,cn->n", result - self.points, self.directions)
-            heights.append(height[self.counted].astype(np.float64) / self.sigma)
+            heights.append(self.height_of(result))
             tick()
         self.heights = np.array(heights)
+
+    def height_of(self, result: NDArray[np.floating]) -> NDArray[np.float64]:
+        """Return how far the vertices that count were moved, shape (m,), in units of sigma."""
+        height = np.einsum("cn,cn->n", result - self.points, self.directions)
+        return height[self.counted].astype(np.float64) / self.sigma
 
     def divergences(self, wanted: NDArray[np.integer], tick: Callable[[], None]) -> NDArray[np.float64]:
         """Return mean(b dr / eps) of some recipes, shape (R,), zero for the others; see `choose_recipes`."""
@@ -168,17 +192,23 @@ class Trial:
             probed = self.ground.noisy + signs.dtype.type(PROBE) * signs * self._ground_directions
             other = self.problem_at(self.in_part(probed), self.problem.sample)
             other.units = self.problem.units
-            along = self.in_part(signs) * self.directions
+            seen = Probe(other, self.in_part(signs) * self.directions, {})
             for index, moved in zip(wanted, self.runs(other, probed, wanted), strict=True):
-                follows = np.einsum("cn,cn->n", moved - self.results[index], along) / PROBE
-                follows = np.clip(follows, -LARGEST_RESPONSE, LARGEST_RESPONSE)
-                found[index] += float(np.mean(follows[self.counted], dtype=np.float64)) / self.n_probes
+                seen.results[int(index)] = moved
+                found[index] += self.follows(seen, moved, self.results[index]) / self.n_probes
                 tick()
+            self.probes.append(seen)
         return found
+
+    def follows(self, probe: Probe, moved: NDArray[np.floating], result: NDArray[np.floating]) -> float:
+        """Return mean(b dr / eps) of a result, shape (3, n), and of what is the same with a probe."""
+        follows = np.einsum("cn,cn->n", moved - result, probe.along) / PROBE
+        follows = np.clip(follows, -LARGEST_RESPONSE, LARGEST_RESPONSE)
+        return float(np.mean(follows[self.counted], dtype=np.float64))
 
     def mean_of(self, choice: Sequence[int]) -> NDArray[np.floating]:
         """Return the mean, shape (3, n), of the results of some recipes."""
-        return np.mean([self.results[index] for index in choice], axis=0, dtype=self.points.dtype)
+        return mean_of(self.results, choice)
 
     def ground_mean_of(
         self, choice: Sequence[int], tick: Callable[[], None] = lambda: None
@@ -191,6 +221,14 @@ class Trial:
             for index in choice
         ]
         return np.mean(results, axis=0, dtype=self.points.dtype)
+
+
+def mean_of(
+    results: Sequence[NDArray[np.floating]] | Mapping[int, NDArray[np.floating]], choice: Sequence[int]
+) -> NDArray[np.floating]:
+    """Return the mean, shape (3, n), of the results of some recipes, given by their numbers."""
+    chosen = [results[index] for index in choice]
+    return np.mean(chosen, axis=0, dtype=chosen[0].dtype)
 
 
 def _wide_normals(

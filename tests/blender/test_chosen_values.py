@@ -8,9 +8,12 @@ from types import SimpleNamespace
 import pytest
 from framelet.core import DenoiseSettings
 from framelet.core.automatic.filter import CLEAN
+from framelet.core.automatic.finish import FINISHES
 from framelet.core.automatic.recipes import RECIPES
+from framelet.core.automatic.run_choice import Choice
 from framelet.core.normals.pilot import COUPLING
 from framelet.operators.chosen_values import chosen_texts
+from framelet.ui.translations import german_reports
 
 NAMES = ["chosen_recipe", "chosen_frame", "chosen_levels", "chosen_lambda", "chosen_mu"]
 
@@ -45,6 +48,16 @@ def test_the_mean_of_two_recipes_names_both(one, other):
     for name in NAMES:
         values = [each[name] for each in alone if each[name]]
         assert found[name] == "\n".join(dict.fromkeys(values))
+
+
+@pytest.mark.parametrize("recipes", [RECIPES[:1], RECIPES[-2:]])
+@pytest.mark.parametrize("finish", FINISHES, ids=lambda finish: finish.label or "plain")
+def test_how_it_is_finished_has_a_line_of_its_own(recipes, finish):
+    found = texts(Choice(recipes, finish).label, method="AUTO")
+    plain = texts(Choice(recipes).label, method="AUTO")
+    assert found == plain | {"chosen_recipe": "\n".join(filter(None, (plain["chosen_recipe"], finish.label)))}
+    assert list(found) == NAMES
+    assert all(line in german_reports.TEXTS for line in found["chosen_recipe"].splitlines())
 
 
 def test_clean_meshes_chose_nothing():

@@ -62,8 +62,11 @@ def test_last_run_before_and_after():
     assert re.fullmatch(r"\d+\.\d{3} edge lengths", labels[labels.index("RMS") + 3])
     recipe = bpy.context.window_manager.framelet_report.recipe
     lines = labels[labels.index("Chosen") + 1 : labels.index("Iterations")]
-    # A line each, as in the panel above: two recipes do not fit into one.
-    assert " and ".join(line for line in lines if line).replace(" and after ", " after ") == recipe != ""
+    # A line each, as in the panel above: two recipes do not fit into one, nor does what follows.
+    names, _, finish = recipe.partition(" (")
+    lines_of_names = [line for line in lines if line and line != finish.rstrip(")")]
+    assert " and ".join(lines_of_names).replace(" and after ", " after ") == names != ""
+    assert [line for line in lines if line][len(lines_of_names) :] == ([finish[:-1]] if finish else [])
     assert lines == panel_lines("Chosen", panel.VIEW3D_PT_framelet, "Frame")
     assert re.fullmatch(r"[\d.]+ c?m", labels[labels.index("Noise") + 1])
     bpy.ops.object.framelet_denoise(preset="TRI_2")

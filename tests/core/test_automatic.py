@@ -9,6 +9,7 @@ import pytest
 from checks import AS_SOLVED, assert_same_bits, lengths, random_rotation, read_only
 from framelet.core import PRESETS, SurfaceMesh, add_noise, blocks, compare, connect, denoise
 from framelet.core.automatic.filter import CLEAN, LEAST_NOISE
+from framelet.core.automatic.finish import FINISHES
 from framelet.core.automatic.recipes import RECIPES
 from mesh_files import read_mesh
 from meshes import (
@@ -155,7 +156,9 @@ def test_noise_is_taken_away(name):
     assert report.settings == AUTO
     assert 0.15 < report.noise.sigma / report.mean_edge_length < 0.25
     labels = [recipe.label for recipe in RECIPES]
-    assert report.recipe in {*labels, *(f"{a} and {b}" for a in labels for b in labels)}
+    recipes, _, finish = report.recipe.partition(" (")
+    assert recipes in {*labels, *(f"{a} and {b}" for a in labels for b in labels)}
+    assert finish in {"", *(f"{finish.label})" for finish in FINISHES)}
     assert report.iterations >= 0 and not report.is_stopped
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from checks import assert_same_bits, lengths
 from framelet.core import connect
-from framelet.core.automatic import choose, patches
+from framelet.core.automatic import patches, score
 from framelet.core.automatic.patches import trial_part
 from framelet.core.automatic.problem import NormalProblem
 from framelet.core.automatic.recipes import RECIPES
@@ -82,7 +82,7 @@ def problem_of(mesh):
 def test_folded_faces_are_unfolded():
     mesh = triangle_grid(7, 7)
     up = np.tile([[0.0], [0.0], [1.0]], mesh.n_faces)
-    ring_mean = problem_of(mesh)._ring_mean
+    ring_mean = problem_of(mesh).ring_mean
     points = mesh.vertices.T.copy()
     up *= np.sign(area_vectors(points, mesh)[2, 0])
     assert unfold(points, up, mesh, ring_mean) is points
@@ -101,7 +101,7 @@ def test_what_cannot_be_unfolded_is_not_made_worse(rng):
     mesh = triangle_grid(7, 7)
     wanted = rng.normal(size=(3, mesh.n_faces))
     points = mesh.vertices.T.copy()
-    found = unfold(points, wanted, mesh, problem_of(mesh)._ring_mean)
+    found = unfold(points, wanted, mesh, problem_of(mesh).ring_mean)
     before, after = (
         (np.einsum("cf,cf->f", area_vectors(x, mesh), wanted) < 0).sum() for x in (points, found)
     )
@@ -137,39 +137,56 @@ def test_parts_of_large_meshes(kind, rng):
     assert (sizes[0] == sizes[1][part.vertices])[part.counts].all()
 
 
+def test_rims_of_parts_do_not_touch_themselves(rng, monkeypatch):
+    """A vertex that is not manifold in the part is not in the mesh either."""
+    mesh = noisy(triangle_torus(40, 50), rng, 0.4)
+    pages = MESHES["three pages"]()
+    both = union(mesh, pages)
+    monkeypatch.setattr(patches, "WHOLE", 100)
+    monkeypatch.setattr(patches, "FACES_IN_PATCH", 61)
+    found = {}
+    for rounds in (0, patches.TRIMMINGS):
+        monkeypatch.setattr(patches, "TRIMMINGS", rounds)
+        found[rounds] = part = trial_part(both.vertices.T, both)
+        assert part.counts.any() and part.surface.n_faces > 100
+    untrimmed, part = found.values()
+    assert connect(untrimmed.surface).is_non_manifold[untrimmed.vertices < mesh.n_vertices].any()
+    assert not connect(part.surface).is_non_manifold[part.vertices < mesh.n_vertices].any()
+
+
 def judged(risk, first, second):
-    """Return what `choose.scores` takes."""
+    """Return what `score.scores` takes."""
     return np.stack((risk, first, second), axis=1)
 
 
 def test_scores_are_risks_times_powers_of_roughness():
-    score = choose.scores
+    of = score.scores
     risk, plain = np.array([0.5, 0.2, 0.3]), np.ones(3)
-    assert score(judged(risk, plain, plain)).argmin() == 1
-    assert score(judged(risk, np.array([1.0, 99.0, 1.1]), plain)).argmin() == 2
-    assert score(judged(risk, plain, np.array([1.0, 99.0, 1.1]))).argmin() == 2
+    assert of(judged(risk, plain, plain)).argmin() == 1
+    assert of(judged(risk, np.array([1.0, 99.0, 1.1]), plain)).argmin() == 2
+    assert of(judged(risk, plain, np.array([1.0, 99.0, 1.1]))).argmin() == 2
     # Risks below zero lift all of them: their differences stay.
-    lifted = score(judged(risk - 0.4, plain, plain))
+    lifted = of(judged(risk - 0.4, plain, plain))
     assert np.abs(np.diff(lifted) - np.diff(risk)).max() < 1e-12
-    assert lifted.min() == pytest.approx(choose.UNCERTAINTY)
+    assert lifted.min() == pytest.approx(score.UNCERTAINTY)
     # The stronger, the more smoothness counts; at strength 0 the risk alone does.
     smoother = np.array([0.5, 1.0, 1.0])
-    assert score(judged(risk, smoother, plain)).argmin() == 1
-    assert score(judged(risk, smoother, plain), strength=8.0).argmin() == 0
-    assert np.allclose(score(judged(risk, smoother, plain), strength=0.0), risk + choose.UNCERTAINTY)
+    assert of(judged(risk, smoother, plain)).argmin() == 1
+    assert of(judged(risk, smoother, plain), strength=8.0).argmin() == 0
+    assert np.allclose(of(judged(risk, smoother, plain), strength=0.0), risk + score.UNCERTAINTY)
     # Where all are perfectly smooth, the risk alone decides.
-    assert np.allclose(score(judged(risk, 0 * plain, 0 * plain)), risk + choose.UNCERTAINTY)
+    assert np.allclose(of(judged(risk, 0 * plain, 0 * plain)), risk + score.UNCERTAINTY)
 
 
 def test_scores_after_a_rehearsal_are_powers_of_all_that_is_known(rng):
     table, angles = rng.uniform(0.1, 2.0, (7, 3)), rng.uniform(1.0, 9.0, 7)
-    found = np.log(choose.scores(table, angles, strength=1.3))
-    risk, first, second, angle = choose.REHEARSED
-    expected = risk * np.log(table[:, 0] + choose.UNCERTAINTY) + angle * np.log(angles)
+    found = np.log(score.scores(table, angles, strength=1.3))
+    risk, first, second, angle = score.REHEARSED
+    expected = risk * np.log(table[:, 0] + score.UNCERTAINTY) + angle * np.log(angles)
     expected += 1.3 * (first * np.log(table[:, 1]) + second * np.log(table[:, 2]))
     assert np.abs((found - expected) - (found - expected)[0]).max() < 1e-12
     alike = np.tile(table[:1], (7, 1))
-    assert choose.scores(alike, angles).argmin() == angles.argmin()
+    assert score.scores(alike, angles).argmin() == angles.argmin()
 
 
 def test_roughness_against_a_loop(rng):

@@ -73,7 +73,7 @@ def test_a_rehearsal_measures_angles_to_the_surface(rng):
     for choice in ((0,), (2,), (0, 2)):
         angles = []
         for draw in range(tried.n_draws):
-            points = np.mean([rehearsal._results[draw][index] for index in choice], axis=0).T
+            points = np.mean([rehearsal._runs[draw][1][index] for index in choice], axis=0).T
             for face, normal in zip(faces_of(mesh), clean, strict=True):
                 other = newell(points[face])
                 cosine = normal @ other / np.linalg.norm(normal) / np.linalg.norm(other)

@@ -10,9 +10,11 @@ from checks import assert_same_bits
 from framelet.core import PRESETS, SurfaceMesh, connect, denoise
 from framelet.core.automatic import choose, patches
 from framelet.core.automatic import filter as engine
+from framelet.core.automatic.finish import FINISHES, Finish
 from framelet.core.automatic.problem import NormalProblem
-from framelet.core.automatic.recipes import RECIPES, n_ticks
+from framelet.core.automatic.recipes import RECIPES
 from framelet.core.automatic.rehearsal import Rehearsal
+from framelet.core.automatic.run_choice import Choice, n_ticks, run_choice
 from framelet.core.automatic.trial import Trial
 from framelet.core.blocks import Blocks
 from framelet.core.denoising.constraints import find_constraints
@@ -38,11 +40,18 @@ def free(mesh, movable=None, dtype=float):
     return find_constraints(mesh, connect(mesh), AUTO, movable, np.dtype(dtype))
 
 
-@pytest.mark.parametrize("recipes", [*((recipe,) for recipe in RECIPES), *SHARED, *PAIRS[::17]])
-def test_ticks_are_counted_before_the_run(recipes, rng):
+CHOICES = [
+    *(Choice((recipe,)) for recipe in RECIPES),
+    *map(Choice, [*SHARED, *PAIRS[::17]]),
+    *(Choice(recipes, finish) for recipes in (RECIPES[:1], RECIPES[-2:]) for finish in FINISHES),
+]
+
+
+@pytest.mark.parametrize("choice", CHOICES, ids=lambda choice: choice.label)
+def test_ticks_are_counted_before_the_run(choice, rng):
     mesh, ticks = noisy(triangle_torus(4, 5), rng), []
-    problem_of(mesh).run_all(recipes, free(mesh), ticks.append)
-    assert len(ticks) == n_ticks(recipes) and min(ticks) >= 0
+    run_choice(problem_of(mesh), choice, free(mesh), ticks.append)
+    assert len(ticks) == n_ticks(choice) and min(ticks) >= 0
 
 
 def test_some_pairs_share_a_pilot():
@@ -50,12 +59,16 @@ def test_some_pairs_share_a_pilot():
 
 
 @pytest.mark.parametrize("recipes", [SHARED[0], (RECIPES[-1],), (RECIPES[0], RECIPES[-1])])
-def test_progress_ends_at_one_whatever_is_chosen(recipes, rng, monkeypatch):
+@pytest.mark.parametrize("finish", [Finish(), FINISHES[-1]])
+def test_progress_ends_at_one_whatever_is_chosen(recipes, finish, rng, monkeypatch):
     seen = []
-    monkeypatch.setattr(engine, "choose_recipes", lambda *given, **_: given[-1](1.0) or recipes)
+    monkeypatch.setattr(
+        engine, "choose_recipes", lambda *given, **_: given[-1](1.0) or Choice(recipes, finish)
+    )
     result = denoise(noisy(triangle_torus(), rng), AUTO, callback=lambda *given: bool(seen.append(given)))
     fractions = [fraction for fraction, _ in seen]
-    assert result.report.recipe == " and ".join(recipe.label for recipe in recipes)
+    words = f" ({finish.label})" if finish.label else ""
+    assert result.report.recipe == " and ".join(recipe.label for recipe in recipes) + words
     assert fractions == sorted(fractions) and fractions[-1] == pytest.approx(1.0, abs=1e-9)
 
 
@@ -64,8 +77,8 @@ def test_the_mean_of_two_runs(rng):
     mesh = noisy(triangle_torus(6, 8), rng)
     movable = rng.random(mesh.n_vertices) < 0.5
     for pair in (*SHARED, PAIRS[0], PAIRS[-1]):
-        found = problem_of(mesh).run_all(pair, free(mesh, movable))
-        again = problem_of(mesh).run_all(pair[::-1], free(mesh, movable))
+        found = run_choice(problem_of(mesh), Choice(pair), free(mesh, movable))
+        again = run_choice(problem_of(mesh), Choice(pair[::-1]), free(mesh, movable))
         assert_same_bits(found[:, ~movable], mesh.vertices.T[:, ~movable])
         assert np.abs(found - again).max() < 1e-12
 
@@ -89,12 +102,13 @@ def test_every_kind_of_mesh_gets_a_recipe(kind, sigma, dtype, rng):
     mesh, ticks = noisy(KINDS[kind](), rng), []
     points = mesh.vertices.T.astype(dtype)
     given = points.copy()
-    recipes = choose.choose_recipes(points, mesh, sigma, ALONE, ticks.append)
-    assert 1 <= len(recipes) <= 2 and set(recipes) <= set(RECIPES)
+    choice = choose.choose_recipes(points, mesh, sigma, ALONE, ticks.append)
+    assert 1 <= len(choice.recipes) <= 2 and set(choice.recipes) <= set(RECIPES)
+    assert choice.finish in FINISHES
     assert sum(ticks) == pytest.approx(1.0, abs=1e-9)
     assert_same_bits(points, given)
     problem = NormalProblem(points, mesh, connect(mesh), sigma, ALONE)
-    found = problem.run_all(recipes, free(mesh, dtype=dtype))
+    found = run_choice(problem, choice, free(mesh, dtype=dtype))
     assert found.dtype == dtype and np.isfinite(found).all()
 
 
@@ -119,12 +133,12 @@ def test_the_rehearsal_has_the_last_word(wanted, rng, monkeypatch):
     monkeypatch.setattr(choose, "N_PAIRED", len(RECIPES))
     plain = choose.choose_recipes(points, mesh, 0.1, ALONE)
     monkeypatch.setattr(Rehearsal, "angle", lambda _, choice: 1e-2 if choice == (wanted,) else 1e6)
-    assert choose.choose_recipes(points, mesh, 0.1, ALONE) == (RECIPES[wanted],)
+    assert choose.choose_recipes(points, mesh, 0.1, ALONE).recipes == (RECIPES[wanted],)
     monkeypatch.setattr(Rehearsal, "angle", lambda *_: 0.0)
     level = choose.choose_recipes(points, mesh, 0.1, ALONE)
     monkeypatch.setattr(Rehearsal, "angle", lambda *_: 7.0)
     assert choose.choose_recipes(points, mesh, 0.1, ALONE) == level
-    assert len(plain) in (1, 2)
+    assert len(plain.recipes) in (1, 2)
 
 
 def test_hopeless_recipes_are_not_run_again(rng, monkeypatch):
@@ -160,15 +174,17 @@ def test_whether_noise_is_impulsive_is_passed_on(rng, monkeypatch):
     is_hit = rng.random(mesh.n_vertices) < 0.5
     far = noisy(mesh, rng, 0.2).vertices
     spiky = mesh.with_vertices(np.where(is_hit[:, None], far, mesh.vertices))
-    monkeypatch.setattr(engine, "choose_recipes", lambda *_, **named: seen.append(named) or (RECIPES[0],))
+    monkeypatch.setattr(
+        engine, "choose_recipes", lambda *_, **named: seen.append(named) or Choice(RECIPES[:1])
+    )
     report = denoise(spiky, AUTO).report
     assert [named["is_impulsive"] for named in seen] == [report.noise.is_impulsive] == [True]
 
 
 def test_where_no_face_has_an_area_there_is_nothing_to_try():
     mesh, ticks = SurfaceMesh.from_faces(np.arange(12.0).reshape(4, 3), [(0, 1, 2), (1, 2, 3)]), []
-    recipes = choose.choose_recipes(mesh.vertices.T.copy(), mesh, 0.1, ALONE, ticks.append)
-    assert recipes == (RECIPES[0],) and ticks == [1.0]
+    choice = choose.choose_recipes(mesh.vertices.T.copy(), mesh, 0.1, ALONE, ticks.append)
+    assert choice == Choice(RECIPES[:1]) and ticks == [1.0]
 
 
 def test_large_meshes_take_one_quick_recipe(rng, monkeypatch):
@@ -176,6 +192,7 @@ def test_large_meshes_take_one_quick_recipe(rng, monkeypatch):
     begin = Trial.__init__
     monkeypatch.setattr(Trial, "__init__", lambda *given: seen.append(given[4]) or begin(*given))
     monkeypatch.setattr(choose, "PAIRED_UP_TO", mesh.n_faces - 1)
-    assert len(choose.choose_recipes(mesh.vertices.T.copy(), mesh, 0.1, ALONE)) == 1
+    choice = choose.choose_recipes(mesh.vertices.T.copy(), mesh, 0.1, ALONE)
+    assert len(choice.recipes) == 1 and choice.finish.is_quick
     assert seen == [[recipe for recipe in RECIPES if not recipe.n_rounds and not recipe.is_refined]]
     assert len(seen[0]) < len(RECIPES)

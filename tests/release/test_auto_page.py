@@ -6,12 +6,12 @@ import re
 from pathlib import Path
 
 import pytest
-from framelet.core.automatic import choose, filter, patches, position_bands, problem, trial
+from framelet.core.automatic import choose, filter, finish, patches, position_bands, problem, score, trial
 from framelet.core.automatic.recipes import RECIPES, Recipe
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = " ".join((ROOT / "docs" / "how_auto_decides.md").read_text(encoding="utf-8").split())
-WORDS = {10: "ten", 2: "two", 19: "nineteen"}
+WORDS = {10: "ten", 2: "two", 3: "three", 19: "nineteen"}
 
 
 def table_lines(begin):
@@ -53,6 +53,14 @@ def test_the_tables_have_all_recipes_and_their_parameters():
     assert len({recipe.label for recipe in RECIPES}) == len(RECIPES)
 
 
+def test_the_table_of_further_passes():
+    listed = {
+        label: finish.Pass(float(width), float(caution), int(bands), int(steps))
+        for label, width, caution, bands, steps in table_lines("| Pass | Width |")
+    }
+    assert listed == {"Broad": finish.BROAD, "Fine": finish.FINE}
+
+
 def test_the_number_of_recipes():
     number = WORDS[len(RECIPES)]
     assert f"tries {number} recipes" in PAGE and f"**{number.capitalize()} recipes" in PAGE
@@ -73,11 +81,14 @@ def test_the_number_of_recipes():
         f"small meshes get {WORDS[trial.N_DRAWS[0]]} draws",
         f"eps = {trial.PROBE}",
         f"counts with {trial.LARGEST_RESPONSE:.0f} at most",
-        f"least risk / sigma²) + {choose.UNCERTAINTY}",
+        f"least risk / sigma²) + {score.UNCERTAINTY}",
         f"The {choose.N_PAIRED} best recipes run on that",
         f"is within {choose.NEARLY_BEST - 1:.0%} of the least one".replace("%", " %"),
         f"Means of two of the {choose.N_PAIRED} best results",
         f"Beyond {choose.PAIRED_UP_TO:,} faces only single recipes are candidates",
+        f"Beyond {choose.PAIRED_UP_TO:,} faces only *in place* is tried",
+        f"in one of {len(finish.FINISHES)} ways",
+        f"The {WORDS[finish.N_PASSES]} passes cost as much as",
         f"up to {trial.WIDE_UP_TO:,} faces they are tried on the whole mesh",
     ],
 )
@@ -86,9 +97,9 @@ def test_constants(words):
 
 
 def test_powers():
-    assert choose.SMOOTHNESS == (1 / 4, 1 / 4)
+    assert score.SMOOTHNESS == (1 / 4, 1 / 4)
     assert "R · (q b)^(1/4)" in PAGE
-    risk, quarter, bends, angle = choose.REHEARSED
+    risk, quarter, bends, angle = score.REHEARSED
     assert angle == 1
     assert f"R^{risk} · q^{quarter} · b^{bends} · a" in PAGE
 
