@@ -1,13 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What may follow recipes: further passes from their own result, and vertices back to their places."""
+"""What may follow recipes: further passes from their own result, and vertices held in place."""
 
 from __future__ import annotations
 
 from typing import NamedTuple
-
-import numpy as np
-from numpy.typing import NDArray
 
 
 class Pass(NamedTuple):
@@ -38,7 +35,7 @@ class Finish(NamedTuple):
     share : float
         How much of what they give counts; the rest is what they began with.
     held : float
-        The share of the motion within the surface that is taken back.
+        The share of the motion within the surface that is taken back; see `hold.held_in_place`.
     """
 
     label: str = ""
@@ -71,30 +68,3 @@ def _all_finishes() -> tuple[Finish, ...]:
 FINISHES = _all_finishes()
 N_PASSES = len({finish.passes for finish in FINISHES if finish.passes})
 """Passes that all of them take, since those that begin alike share what they begin with."""
-
-
-def held_in_place(
-    points: NDArray[np.floating], noisy: NDArray[np.floating], normals: NDArray[np.floating], share: float
-) -> NDArray[np.floating]:
-    """Return positions with a share of their motion within the surface taken back.
-
-    Low-passes, and averages of any kind, even out triangles: on irregular meshes vertices slide within the
-    surface by several times the noise, away from where they were measured. Where they sit says nothing about
-    the shape, so that to take it back costs nothing but the noise that there is within the surface.
-
-    Parameters
-    ----------
-    points, noisy : ndarray, shape (3, N)
-        Positions after and before.
-    normals : ndarray, shape (3, N)
-        Unit normals of the surface afterwards at the vertices; vertices with zeros go all the way back.
-    share : float
-        From 0 to 1.
-
-    Returns
-    -------
-    ndarray, shape (3, N)
-    """
-    motion = points - noisy
-    within = motion - normals * np.einsum("cn,cn->n", normals, motion)
-    return points - points.dtype.type(share) * within

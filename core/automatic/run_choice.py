@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from ..denoising.constraints import Constraints
 from ..memory import MANY_ITEMS
 from ..normals.folds import unfold
-from .finish import Finish, Pass, held_in_place
+from .finish import Finish, Pass
+from .hold import held_in_place
 from .problem import NormalProblem, Tick
 from .recipes import Recipe
 from .recipes import n_ticks as n_ticks_of_recipes
@@ -88,5 +89,7 @@ def finished(
             result = points + points.dtype.type(finish.share) * (result - points)
         if finish.held:
             normals = problem.vertex_normals(result)
-            result = held_in_place(result, problem.noisy, normals, finish.held)
+            result = held_in_place(
+                result, problem.noisy, normals, finish.held, problem.surface, problem.blocks
+            )
         yield result

@@ -1,19 +1,18 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What may follow recipes: further passes, halves of them, and vertices held in place."""
+"""What may follow recipes: further passes, and which of them is chosen."""
 
 import numpy as np
 import pytest
 from checks import assert_same_bits
 from framelet.core import PRESETS, compare, connect
 from framelet.core.automatic import choose
-from framelet.core.automatic.finish import BROAD, FINE, FINISHES, N_PASSES, Finish, held_in_place
+from framelet.core.automatic.finish import BROAD, FINE, FINISHES, N_PASSES, Finish
 from framelet.core.automatic.problem import NormalProblem
 from framelet.core.automatic.recipes import RECIPES
 from framelet.core.automatic.rehearsal import Rehearsal
 from framelet.core.automatic.run_choice import Choice, finished, run_choice
 from framelet.core.automatic.score import risk_of
-from framelet.core.automatic.smooth_positions import smooth_positions
 from framelet.core.automatic.trial import Trial
 from framelet.core.denoising.constraints import find_constraints
 from kinds import ALONE, KIND, KINDS
@@ -34,22 +33,6 @@ def free(mesh, movable=None):
 
 
 @KIND
-def test_motion_within_the_surface_is_taken_back(kind, rng):
-    """Against a loop over the vertices."""
-    mesh = noisy(KINDS[kind](), rng)
-    points = mesh.vertices.T + 0.1 * rng.normal(size=(3, mesh.n_vertices))
-    normals = problem_of(mesh).vertex_normals(points)
-    for share in (0.3, 1.0):
-        found = held_in_place(points, mesh.vertices.T, normals, share)
-        for v in range(mesh.n_vertices):
-            motion, n = points[:, v] - mesh.vertices[v], normals[:, v]
-            kept = (motion @ n) * n
-            expected = mesh.vertices[v] + kept + (1 - share) * (motion - kept)
-            assert np.abs(found[:, v] - expected).max() < 1e-12
-    assert_same_bits(held_in_place(points, mesh.vertices.T, normals, 0.0), points)
-
-
-@KIND
 def test_normals_at_vertices_are_sums_of_areas(kind, rng):
     mesh = noisy(KINDS[kind](), rng)
     expected = np.zeros((mesh.n_vertices, 3))
@@ -60,20 +43,6 @@ def test_normals_at_vertices_are_sums_of_areas(kind, rng):
     length = np.linalg.norm(expected, axis=1, keepdims=True)
     expected = np.divide(expected, length, out=np.zeros_like(expected), where=length > 1e-12)
     assert np.abs(problem_of(mesh).vertex_normals(mesh.vertices.T) - expected.T).max() < 1e-9
-
-
-def test_vertices_that_slid_within_a_sheet_go_back(rng):
-    """With heights as the low-pass left them: the shape of an irregular sheet stays, its triangles return."""
-    mesh = triangle_grid(20, 20)
-    spread = mesh.vertices + np.column_stack(
-        (0.25 * rng.normal(size=(mesh.n_vertices, 2)), np.zeros(mesh.n_vertices))
-    )
-    sheet = mesh.with_vertices(spread)
-    rings = problem_of(sheet).rings
-    slid = smooth_positions(sheet.vertices.T.copy(), rings, 8)
-    assert np.abs(slid - sheet.vertices.T).max() > 0.2 and np.abs(slid[2]).max() == 0
-    found = held_in_place(slid, sheet.vertices.T, problem_of(sheet).vertex_normals(slid), 1.0)
-    assert np.abs(found - sheet.vertices.T).max() < 1e-12
 
 
 def test_ways_to_finish_share_their_passes(rng, monkeypatch):

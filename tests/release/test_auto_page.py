@@ -6,12 +6,22 @@ import re
 from pathlib import Path
 
 import pytest
-from framelet.core.automatic import choose, filter, finish, patches, position_bands, problem, score, trial
+from framelet.core.automatic import (
+    choose,
+    filter,
+    finish,
+    hold,
+    patches,
+    position_bands,
+    problem,
+    score,
+    trial,
+)
 from framelet.core.automatic.recipes import RECIPES, Recipe
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = " ".join((ROOT / "docs" / "how_auto_decides.md").read_text(encoding="utf-8").split())
-WORDS = {10: "ten", 2: "two", 3: "three", 19: "nineteen"}
+WORDS = {10: "ten", 2: "two", 3: "three", 4: "four", 19: "nineteen"}
 
 
 def table_lines(begin):
@@ -88,6 +98,7 @@ def test_the_number_of_recipes():
         f"Beyond {choose.PAIRED_UP_TO:,} faces only single recipes are candidates",
         f"Beyond {choose.PAIRED_UP_TO:,} faces only *in place* is tried",
         f"in one of {len(finish.FINISHES)} ways",
+        f"turns by more than {hold.LARGEST_TURN:.0f} degrees its vertices go half as far, {WORDS[hold.HALVINGS]} times",
         f"The {WORDS[finish.N_PASSES]} passes cost as much as",
         f"up to {trial.WIDE_UP_TO:,} faces they are tried on the whole mesh",
     ],
