@@ -14,8 +14,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ..normals.noise_sample import area_vectors, normals_of, vertex_means
-from ..normals.pilot import unit_columns
+from ..normals.noise_sample import normals_of
 from .finish import Finish
 from .problem import NormalProblem
 from .run_choice import finished
@@ -47,8 +46,7 @@ class Rehearsal:
 
     def __init__(self, trial: Trial, surface_points: NDArray[np.floating], *, is_impulsive: bool) -> None:
         self._trial = trial
-        at_vertices = vertex_means(area_vectors(surface_points, trial.ground.surface), trial.ground.at_vertex)
-        directions = unit_columns(at_vertices, np.zeros_like(at_vertices))
+        directions = trial.ground.vertex_normals(surface_points)
         self._noisy = [
             surface_points + self._noise(draw, is_impulsive) * directions for draw in range(trial.n_draws)
         ]

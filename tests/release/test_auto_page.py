@@ -98,7 +98,8 @@ def test_the_number_of_recipes():
         f"Beyond {choose.PAIRED_UP_TO:,} faces only single recipes are candidates",
         f"Beyond {choose.PAIRED_UP_TO:,} faces only *in place* is tried",
         f"in one of {len(finish.FINISHES)} ways",
-        f"turns by more than {hold.LARGEST_TURN:.0f} degrees its vertices go half as far, {WORDS[hold.HALVINGS]} times",
+        f"turns by more than {hold.LARGEST_TURN:.0f} degrees its vertices go half as far, "
+        f"{WORDS[hold.HALVINGS]} times",
         f"The {WORDS[finish.N_PASSES]} passes cost as much as",
         f"up to {trial.WIDE_UP_TO:,} faces they are tried on the whole mesh",
     ],
