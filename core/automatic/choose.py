@@ -18,7 +18,7 @@ from .recipes import RECIPES
 from .rehearsal import Rehearsal
 from .roughness import Roughness
 from .run_choice import Choice, finished
-from .score import risk_of, scores
+from .score import FINISHED, IN_PLACE, risk_of, scores
 from .trial import Trial, mean_of
 
 HOPELESS = 1.5
@@ -156,5 +156,6 @@ def choose_recipes(
         )
 
     finish_angles = rehearsal.angles_finished(last, finishes, lambda: tick(share))
-    finish = int(np.argmin(scores(judge_finishes(), finish_angles, strength=strength)))
-    return Choice(tuple(recipes[index] for index in last), finishes[finish])
+    found = scores(judge_finishes(), finish_angles, strength, FINISHED)
+    found *= 1.0 - IN_PLACE * np.array([finish.held for finish in finishes])
+    return Choice(tuple(recipes[index] for index in last), finishes[int(np.argmin(found))])

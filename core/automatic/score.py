@@ -17,6 +17,12 @@ SMOOTHNESS = (0.25, 0.25)
 REHEARSED = (0.7, 0.2, 0.1, 1.0)
 """Powers of the risk, of two measures of roughness, and of the rehearsed angle, for the last choice."""
 
+FINISHED = (0.4, 0.4, 0.1, 1.0)
+"""The same for ways to finish: results differ less, and their risks by less than is known of them."""
+
+IN_PLACE = 0.03
+"""Share of the score that is taken off where all vertices are held in place, as that is worth something."""
+
 TINY_ROUGHNESS = 1e-4
 """Differences of normals below this are rounding."""
 
@@ -25,7 +31,10 @@ TINY_ANGLE = 1e-3
 
 
 def scores(
-    judged: NDArray[np.float64], angles: NDArray[np.float64] | None = None, strength: float = 1.0
+    judged: NDArray[np.float64],
+    angles: NDArray[np.float64] | None = None,
+    strength: float = 1.0,
+    powers: tuple[float, float, float, float] = REHEARSED,
 ) -> NDArray[np.float64]:
     """Return what is to be small, shape (n,).
 
@@ -37,9 +46,11 @@ def scores(
         Angles of a rehearsal; without them, the score is that of the first choice.
     strength : float, optional
         Factor on the powers of roughness: who asks for more than was measured wants it smoother.
+    powers : tuple of float, optional
+        Those with angles.
     """
     risk, *roughness = judged.T
-    of_risk, *of_roughness, of_angle = (1.0, *SMOOTHNESS, 0.0) if angles is None else REHEARSED
+    of_risk, *of_roughness, of_angle = (1.0, *SMOOTHNESS, 0.0) if angles is None else powers
     found = (risk - min(0.0, float(risk.min())) + UNCERTAINTY) ** of_risk
     for rough, power in zip(roughness, of_roughness, strict=True):
         smallest = max(float(rough.min()), TINY_ROUGHNESS)

@@ -114,6 +114,11 @@ def test_powers():
     risk, quarter, bends, angle = score.REHEARSED
     assert angle == 1
     assert f"R^{risk} · q^{quarter} · b^{bends} · a" in PAGE
+    risk, quarter, bends, angle = score.FINISHED
+    assert angle == 1
+    assert (
+        f"R^{risk} · q^{quarter} · b^{bends} · a is taken; {100 * score.IN_PLACE:.0f} % are taken off" in PAGE
+    )
 
 
 def test_numbers_of_averages_of_the_bands():
