@@ -18,7 +18,7 @@ from .recipes import RECIPES
 from .rehearsal import Rehearsal
 from .roughness import Roughness
 from .run_choice import Choice, finished
-from .score import FINISHED, IN_PLACE, risk_of, scores
+from .score import HELD, IN_PLACE, PASSED, risk_of, scores
 from .trial import Trial, mean_of
 
 HOPELESS = 1.5
@@ -156,6 +156,12 @@ def choose_recipes(
         )
 
     finish_angles = rehearsal.angles_finished(last, finishes, lambda: tick(share))
-    found = scores(judge_finishes(), finish_angles, strength, FINISHED)
-    found *= 1.0 - IN_PLACE * np.array([finish.held for finish in finishes])
-    return Choice(tuple(recipes[index] for index in last), finishes[int(np.argmin(found))])
+    finish_judged = judge_finishes()
+    passed = scores(finish_judged, finish_angles, strength, PASSED)
+    held = scores(finish_judged, finish_angles, strength, HELD)
+    held *= 1.0 - IN_PLACE * np.array([finish.held for finish in finishes])
+    # How vertices are held is chosen among those with the best passes.
+    best_passed = min((i for i, finish in enumerate(finishes) if not finish.held), key=lambda i: passed[i])
+    of_best = [i for i, finish in enumerate(finishes) if finish.passed == finishes[best_passed].passed]
+    finish = min(of_best, key=lambda i: held[i])
+    return Choice(tuple(recipes[index] for index in last), finishes[finish])

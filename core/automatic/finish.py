@@ -44,6 +44,11 @@ class Finish(NamedTuple):
     held: float = 0.0
 
     @property
+    def passed(self) -> tuple[tuple[Pass, ...], float]:
+        """The passes and their share."""
+        return self.passes, self.share
+
+    @property
     def is_quick(self) -> bool:
         """Whether it serves large meshes."""
         return not self.passes

@@ -17,10 +17,13 @@ SMOOTHNESS = (0.25, 0.25)
 REHEARSED = (0.7, 0.2, 0.1, 1.0)
 """Powers of the risk, of two measures of roughness, and of the rehearsed angle, for the last choice."""
 
-FINISHED = (0.4, 0.4, 0.1, 1.0)
-"""The same for ways to finish: results differ less, and their risks by less than is known of them."""
+PASSED = (0.5, 0.4, 0.0, 1.0)
+"""The same for further passes."""
 
-IN_PLACE = 0.03
+HELD = (0.0, 0.12, 0.5, 0.5)
+"""The same for vertices that are held in place."""
+
+IN_PLACE = 0.04
 """Share of the score that is taken off where all vertices are held in place, as that is worth something."""
 
 TINY_ROUGHNESS = 1e-4

@@ -114,10 +114,13 @@ def test_powers():
     risk, quarter, bends, angle = score.REHEARSED
     assert angle == 1
     assert f"R^{risk} · q^{quarter} · b^{bends} · a" in PAGE
-    risk, quarter, bends, angle = score.FINISHED
-    assert angle == 1
+    risk, quarter, bends, angle = score.PASSED
+    assert (angle, bends) == (1, 0)
+    assert f"the least R^{risk} · q^{quarter} · a;" in PAGE
+    risk, quarter, bends, angle = score.HELD
+    assert risk == 0 and bends == angle
     assert (
-        f"R^{risk} · q^{quarter} · b^{bends} · a is taken; {100 * score.IN_PLACE:.0f} % are taken off" in PAGE
+        f"the least q^{quarter} · (b a)^{angle}, of which {100 * score.IN_PLACE:.0f} % are taken off" in PAGE
     )
 
 
