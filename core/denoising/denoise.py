@@ -13,7 +13,7 @@ from numpy.typing import DTypeLike, NDArray
 
 from ..automatic.filter import CLEAN, automatic_filter
 from ..blocks import Blocks, Stopped
-from ..memory import check_memory, give_back
+from ..memory import check_memory
 from ..noise import NoiseEstimate, estimate_noise
 from ..normals.filter import normal_filter
 from ..region.finish import Finished, finish
@@ -126,7 +126,6 @@ def _denoise(
         prepared = prepare(surface, settings, connectivity=connectivity, dtype=dtype, should_stop=should_stop)
     elif not prepared.fits(surface, settings, dtype):
         raise ValueError("This was prepared for another mesh or other stencils; prepare it again.")
-    give_back(surface.n_vertices)
     ordered, noisy, connectivity = prepared.ordered, prepared.noisy, prepared.connectivity
     placed = placed.renumbered(prepared.reordering)
     with prepared.blocks.with_threads(settings.threads).stopped_by(should_stop) as blocks:
