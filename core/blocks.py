@@ -15,6 +15,9 @@ from concurrent.futures import ThreadPoolExecutor
 from types import TracebackType
 from typing import Any, TypeVar
 
+import numpy as np
+from numpy.typing import NDArray
+
 Result = TypeVar("Result")
 
 BLOCK_SIZE = 32768
@@ -114,6 +117,11 @@ class Blocks:
             self.check()
             results.append(next(found))
         return results
+
+    def indices(self, is_wanted: Callable[[int, int], NDArray[np.bool_]], n_items: int) -> NDArray[np.intp]:
+        """Return the indices below `n_items`, ascending, for which `is_wanted(start, stop)` is true."""
+        parts = self.run(lambda start, stop: start + np.flatnonzero(is_wanted(start, stop)), n_items)
+        return np.concatenate(parts) if parts else np.zeros(0, np.intp)
 
     def together(self, *tasks: Callable[[], Any]) -> list[Any]:
         """Call functions at the same time, as far as there are threads, and return what they return."""
