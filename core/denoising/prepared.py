@@ -194,7 +194,12 @@ def _prepare(
                 only_used_bands=settings.shrinkage in SEPARABLE,
             )
         corners = find_corners(ordered, connectivity, settings.boundary)
-    noisy = np.ascontiguousarray(normalized.T, dtype)
+        noisy = np.empty((3, surface.n_vertices), dtype)
+
+        def turn(start: int, stop: int) -> None:
+            noisy[:, start:stop] = normalized[start:stop].T
+
+        blocks.run(turn, surface.n_vertices)
     return Prepared(
         surface, reordering, connectivity, edge, noisy, corners, transform, blocks, _key(settings, dtype)
     )
