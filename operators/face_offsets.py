@@ -43,17 +43,16 @@ def _address_of_starts(mesh: bpy.types.Mesh) -> int | None:
     """Return where Blender keeps the first corners of all faces, as 32-bit numbers; None if it is not clear.
 
     What Python holds of a face is the place of its number in the array. This is Blender's own business, so
-    that it is believed only if the places of faces throughout the mesh lie as in such an array and the numbers
-    there are those that the faces give.
+    that it is believed only if the places of faces throughout the mesh lie as in such an array and the
+    numbers there are those that the faces give.
     """
     polygons = mesh.polygons
     last = len(polygons) - 1
     address = polygons[0].as_pointer()
-    for index in sorted({1, *(last * sample // _N_SAMPLES for sample in range(_N_SAMPLES + 1))}):
-        if polygons[index].as_pointer() != address + 4 * index:
-            return None
+    samples = {min(1, last), *(last * number // _N_SAMPLES for number in range(_N_SAMPLES + 1))}
+    if any(polygons[index].as_pointer() != address + 4 * index for index in samples):
+        return None
     # All of it lies between the places of the first and the last face, so that it may be read.
-    for index in (0, 1, last // 2, last):
-        if ctypes.c_int32.from_address(address + 4 * index).value != polygons[index].loop_start:
-            return None
-    return address
+    numbers = {index: ctypes.c_int32.from_address(address + 4 * index).value for index in samples}
+    is_right = all(number == polygons[index].loop_start for index, number in numbers.items())
+    return address if is_right else None

@@ -240,7 +240,7 @@ class FaceWatch:
         topology = self.carrier.topology
         counts, corner = corners_of(topology, faces)
         wanted = topology.corner_vertex[corner]
-        vertices = np.unique(wanted)
+        vertices = np.unique(wanted).astype(np.intp)
         number = np.empty(topology.n_vertices, np.int32)  # of the others nobody asks
         number[vertices] = np.arange(len(vertices), dtype=np.int32)
         near = corners_around(topology, self.carrier.connectivity, vertices)

@@ -104,9 +104,9 @@ def _fill_pairs(
 
     def kernel(start: int, stop: int) -> None:
         valence = members.connectivity.valence[wanted[start:stop]]
-        for value in np.flatnonzero(np.bincount(valence)):
+        for value in map(int, np.flatnonzero(np.bincount(valence))):
             group = wanted[start:stop][valence == value]
-            size = max(1, 2**18 // (int(value) ** 2))  # so that the table of pairs stays in the cache
+            size = max(1, 2**18 // value**2)  # so that the table of pairs stays in the cache
             for begin in range(0, len(group), size):
                 part = group[begin : begin + size]
                 pairs = straight_pairs(points, part, members.near_rows(part, value), min(value // 2, 3))
