@@ -50,7 +50,7 @@ class StencilBuilder:
         self.slots = slots = np.empty((len(self.row_of), n_sites), np.int32)
 
         def fill(start: int, stop: int) -> None:
-            slots[:, start:stop] = np.arange(start, stop) if is_vertices else 0
+            slots[:, start:stop] = np.arange(start, stop, dtype=np.int32) if is_vertices else 0
 
         (blocks or Blocks(1)).run(fill, n_sites)
         self.is_irregular = np.zeros(n_sites, bool)
