@@ -10,10 +10,13 @@ same bits for any number of threads.
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from types import TracebackType
 from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
 
 Result = TypeVar("Result")
 
@@ -46,7 +49,7 @@ class Blocks:
 
     def __enter__(self) -> Blocks:
         if self.n_threads > 1:
-            self._pool = ThreadPoolExecutor(self.n_threads, thread_name_prefix="framelet")
+            self._pool = ThreadPoolExecutor(self.n_threads - 1, thread_name_prefix="framelet")
         return self
 
     def __exit__(
@@ -99,25 +102,54 @@ class Blocks:
         Raises
         ------
         Stopped
-            If the function given to `stopped_by` says so. Kernels that have begun are waited for on leaving.
+            If the function given to `stopped_by` says so. Kernels that have begun are waited for.
         """
         starts = range(0, n_items, self.block_size)
-        stops = [min(start + self.block_size, n_items) for start in starts]
+        results: list[Any] = [None] * len(starts)
+        errors: dict[int, BaseException] = {}
+        # Every thread, the calling one too, takes the next number when it is done with a block: to hand out
+        # blocks one by one would cost as much as a small kernel. Taking a number is atomic.
+        numbers = iter(range(len(starts)))
+
+        def work(check: Callable[[], None]) -> int:
+            n_taken = 0
+            for number in numbers:
+                n_taken += 1
+                try:
+                    check()
+                    start = starts[number]
+                    results[number] = kernel(start, min(start + self.block_size, n_items))
+                except BaseException as error:
+                    errors[number] = error
+                    for _ in numbers:  # nothing is left for the others
+                        pass
+            return n_taken
+
         pool = self._owner._pool
-        found: Iterator[Result]
-        if pool is None or len(starts) < 2:
-            found = map(kernel, starts, stops)
-        else:
-            found = pool.map(kernel, starts, stops)
-        results = []
-        for _ in starts:
-            self.check()
-            results.append(next(found))
+        n_helpers = 0 if pool is None else min(self._owner.n_threads, len(starts)) - 1
+        helpers = [pool.submit(work, _no_question) for _ in range(n_helpers)] if pool is not None else []
+        n_taken = work(self.check)
+        for helper in helpers:
+            if not helper.cancel():
+                helper.result()
+        if errors:
+            raise errors[min(errors)]
+        for _ in range(n_taken, len(starts)):
+            self.check()  # once for each block, whoever took it
         return results
+
+    def indices(self, is_wanted: Callable[[int, int], NDArray[np.bool_]], n_items: int) -> NDArray[np.intp]:
+        """Return the indices below `n_items`, ascending, for which `is_wanted(start, stop)` is true."""
+        parts = self.run(lambda start, stop: start + np.flatnonzero(is_wanted(start, stop)), n_items)
+        return np.concatenate(parts) if parts else np.zeros(0, np.intp)
 
     def together(self, *tasks: Callable[[], Any]) -> list[Any]:
         """Call functions at the same time, as far as there are threads, and return what they return."""
         return self.sized(1).run(lambda start, _: tasks[start](), len(tasks))
+
+
+def _no_question() -> None:
+    """Do not ask whether to stop: that is for the calling thread."""
 
 
 def available_cores() -> int:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..core import Region, SurfaceMesh
-    from ..core.denoising.report import Callback, DenoiseReport
+    from ..core.denoising.report import Callback, DenoiseReport, DenoiseResult
     from ..core.settings import DenoiseSettings
 
 
@@ -113,7 +113,19 @@ def compute(
             )
         except ValueError as error:
             raise ValueError(f"‘{job.name}’: {error}") from error
-    rms, maximum = displacement_by(job.linear, job.surface.vertices, result.vertices)
-    noise = result.report.noise
+    return DenoiseOutcome(result.vertices, _measured(job, result))
+
+
+def _measured(job: DenoiseJob, result: DenoiseResult) -> MeasuredReport:
+    """Return the report of a job with lengths in scene units."""
+    import numpy as np
+
+    report, noise = result.report, result.report.noise
+    if np.array_equal(job.linear, np.eye(3)):
+        rms, maximum = report.displacement_rms, report.displacement_max
+    else:
+        rms, maximum = displacement_by(
+            job.linear, job.surface.vertices, result.vertices, job.settings.threads
+        )
     sigma = 0.0 if noise is None else length_by(job.linear, noise.sigma)
-    return DenoiseOutcome(result.vertices, MeasuredReport(result.report, rms, maximum, sigma))
+    return MeasuredReport(report, rms, maximum, sigma)

@@ -75,8 +75,8 @@ def write_outcome(obj: bpy.types.Object, job: DenoiseJob, outcome: DenoiseOutcom
     """
     followers = {} if job.output == SHAPE_KEY else read_followers(obj)
     written = write_output(obj, job.surface, outcome.vertices, job.output)
-    run_memory.remember(written, job.surface, outcome.vertices, followers)
-    return written
+    run_memory.remember(written.obj, job.surface, written.positions, followers)
+    return written.obj
 
 
 class DenoisedObject(NamedTuple):

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Blender meshes as arrays and back.
 
-With `band_storage`, `shape_keys` and `kept_original` this is all that touches mesh data. What limits a run to
-parts of a mesh is read through it by `region_bridge`.
+With `band_storage`, `shape_keys`, `face_offsets` and `kept_original` this is all that touches mesh data. What
+limits a run to parts of a mesh is read through it by `region_bridge`.
 
 In Object Mode the arrays come from the mesh, in Edit Mode from the BMesh of the edit session. With shape keys
 the active key is what is read and edited, as in Blender's own Edit Mode. Nothing but positions is written.
@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 import bmesh
 import bpy
 
+from .face_offsets import read_face_starts
 from .shape_keys import (
     active_key,
     dependent_keys,
@@ -184,7 +185,9 @@ def read_weights(obj: bpy.types.Object, group_name: str) -> NDArray[np.float64]:
     return weights
 
 
-def write_vertices(obj: bpy.types.Object, before: SurfaceMesh, vertices: NDArray[np.floating]) -> None:
+def write_vertices(
+    obj: bpy.types.Object, before: SurfaceMesh, vertices: NDArray[np.floating]
+) -> NDArray[np.float32]:
     """Move the vertices of an object's mesh; those that did not move keep their bits.
 
     With shape keys the active key is edited. If the Key is relative, keys that depend on the active one shift
@@ -198,21 +201,30 @@ def write_vertices(obj: bpy.types.Object, before: SurfaceMesh, vertices: NDArray
         What `read_surface` returned.
     vertices : ndarray, shape (N, 3)
         New positions in object space.
+
+    Returns
+    -------
+    ndarray, shape (N, 3), float32
+        What was written; see `with_moved`.
     """
-    moved, positions = _moved(before, vertices)
-    if len(moved) == 0:
-        return
+    import numpy as np
+
+    positions = with_moved(before, vertices)
+    if np.array_equal(positions, before.vertices):
+        return positions
     mesh = obj.data
     if mesh.is_editmode:
-        _write_edit_mesh(mesh, moved, positions)
-        return
+        _write_edit_mesh(mesh, _moved(before, positions), positions)
+        return positions
     active = active_key(obj)
     if active is None:
         write_positions(mesh, positions)
     else:
         write_key_points(active, positions)
         dependent = dependent_keys(mesh.shape_keys, active)
-        offset = positions[moved] - before.vertices[moved]
+        if dependent:
+            moved = _moved(before, positions)
+            offset = positions[moved] - before.vertices[moved]
         for key in dependent:
             shifted = read_key_points(key)
             shifted[moved] += offset
@@ -221,11 +233,16 @@ def write_vertices(obj: bpy.types.Object, before: SurfaceMesh, vertices: NDArray
         if reference in [active, *dependent]:
             write_positions(mesh, read_key_points(reference))
     mesh.update()
+    return positions
 
 
-def write_key(key: bpy.types.ShapeKey, before: SurfaceMesh, vertices: NDArray[np.floating]) -> None:
-    """Write positions to one shape key; vertices that did not move have the bits they had when read."""
-    write_key_points(key, _moved(before, vertices)[1])
+def write_key(
+    key: bpy.types.ShapeKey, before: SurfaceMesh, vertices: NDArray[np.floating]
+) -> NDArray[np.float32]:
+    """Write positions to one shape key, and return them as `write_vertices` does."""
+    positions = with_moved(before, vertices)
+    write_key_points(key, positions)
+    return positions
 
 
 def show_positions(mesh: bpy.types.Mesh, positions: NDArray[np.float32]) -> None:
@@ -235,24 +252,21 @@ def show_positions(mesh: bpy.types.Mesh, positions: NDArray[np.float32]) -> None
 
 
 def with_moved(before: SurfaceMesh, vertices: NDArray[np.floating]) -> NDArray[np.float32]:
-    """Return the positions that `write_vertices` writes to a mesh, shape (N, 3)."""
-    return _moved(before, vertices)[1]
+    """Return the positions that `write_vertices` writes to a mesh, shape (N, 3).
 
-
-def _moved(
-    before: SurfaceMesh, vertices: NDArray[np.floating]
-) -> tuple[NDArray[np.intp], NDArray[np.float32]]:
-    """Return which vertices moved, and all positions, shape (N, 3)."""
+    Coordinates that are the same by value have the bits they had when read, the sign of a zero included.
+    """
     import numpy as np
 
-    # Compared by value, so that a zero that only changed its sign keeps its bits too.
-    new = np.asarray(vertices, np.float32)
-    x, y, z = (new != before.vertices).T
-    is_moved = x | y
-    is_moved |= z
-    positions = before.vertices.astype(np.float32)
-    np.copyto(positions, new, where=is_moved[:, None])
-    return np.flatnonzero(is_moved), positions
+    new, old = np.asarray(vertices, np.float32), np.asarray(before.vertices, np.float32)
+    return np.where(new != old, new, old)
+
+
+def _moved(before: SurfaceMesh, positions: NDArray[np.float32]) -> NDArray[np.intp]:
+    """Return which vertices moved."""
+    import numpy as np
+
+    return np.flatnonzero((positions != before.vertices).any(axis=1))
 
 
 def _write_edit_mesh(mesh: bpy.types.Mesh, moved: NDArray[np.intp], vertices: NDArray[np.float32]) -> None:
@@ -284,7 +298,7 @@ def read_arrays(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey | None) -> Surface
     if n_faces:
         mesh.attributes[".corner_vert"].data.foreach_get("value", corner_vertex)
         mesh.attributes[".corner_edge"].data.foreach_get("value", corner_edge)
-        mesh.polygons.foreach_get("loop_start", face_offset[:-1])
+        read_face_starts(mesh, face_offset[:-1])
     return SurfaceMesh(vertices, corner_vertex, corner_edge, face_offset, edges)
 
 

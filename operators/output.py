@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from . import mesh_bridge
 from .output_choices import IN_PLACE, NEW_OBJECT, SHAPE_KEY
@@ -51,9 +51,16 @@ def refusal(obj: bpy.types.Object, output: str) -> str | None:
     return mesh_bridge.faces_refusal(obj)
 
 
+class WrittenOutput(NamedTuple):
+    """The object that has a result, the same or a new one, and the positions that were written, (N, 3)."""
+
+    obj: bpy.types.Object
+    positions: NDArray[np.float32]
+
+
 def write_output(
     obj: bpy.types.Object, surface: SurfaceMesh, vertices: NDArray[np.floating], output: str
-) -> bpy.types.Object:
+) -> WrittenOutput:
     """Write new positions of the vertices of an object.
 
     Parameters
@@ -69,16 +76,13 @@ def write_output(
 
     Returns
     -------
-    bpy.types.Object
-        The object that has the result: the same, or the new one.
+    WrittenOutput
     """
     if output == SHAPE_KEY:
-        _add_key(obj, surface, vertices)
-        return obj
+        return WrittenOutput(obj, _add_key(obj, surface, vertices))
     if output == NEW_OBJECT:
         obj = _add_copy(obj)
-    mesh_bridge.write_vertices(obj, surface, vertices)
-    return obj
+    return WrittenOutput(obj, mesh_bridge.write_vertices(obj, surface, vertices))
 
 
 def select_instead(
@@ -104,8 +108,10 @@ def select_instead(
             view_layer.objects.active = new
 
 
-def _add_key(obj: bpy.types.Object, surface: SurfaceMesh, vertices: NDArray[np.floating]) -> None:
-    """Add a shape key with the result, relative to the key that was read."""
+def _add_key(
+    obj: bpy.types.Object, surface: SurfaceMesh, vertices: NDArray[np.floating]
+) -> NDArray[np.float32]:
+    """Add a shape key with the result, relative to the key that was read, and return its positions."""
     base = mesh_bridge.active_key(obj)
     if base is None:
         base = obj.shape_key_add(name="Basis", from_mix=False)
@@ -113,9 +119,10 @@ def _add_key(obj: bpy.types.Object, surface: SurfaceMesh, vertices: NDArray[np.f
     # What the value blends in is the difference to the shape that was denoised, whatever else is mixed.
     key.relative_key = base
     key.value = 1.0
-    mesh_bridge.write_key(key, surface, vertices)
+    positions = mesh_bridge.write_key(key, surface, vertices)
     obj.active_shape_key_index = len(obj.data.shape_keys.key_blocks) - 1
     obj.data.update()
+    return positions
 
 
 def _add_copy(obj: bpy.types.Object) -> bpy.types.Object:

@@ -59,7 +59,7 @@ _runs: dict[int, LastRun] = {}
 def remember(
     obj: bpy.types.Object,
     surface: SurfaceMesh,
-    vertices: NDArray[np.floating],
+    positions: NDArray[np.float32],
     followers: Mapping[str, NDArray[np.float32]],
 ) -> None:
     """Remember a run whose result was just written.
@@ -70,8 +70,8 @@ def remember(
         The object that has the result.
     surface : SurfaceMesh
         The mesh as it was before; its positions are kept and must not be changed afterwards.
-    vertices : ndarray, shape (N, 3)
-        What was written with `mesh_bridge.write_vertices`.
+    positions : ndarray, shape (N, 3), float32
+        What `mesh_bridge.write_vertices` returned; kept, and not to be changed afterwards.
     followers : mapping
         What `shape_keys.read_followers` returned before the result was written.
     """
@@ -79,10 +79,9 @@ def remember(
 
     moved = read_followers(obj)
     pairs = {name: (points, moved[name]) for name, points in followers.items() if name in moved}
-    after = mesh_bridge.with_moved(surface, vertices)
     key = obj.data.session_uid
     _runs.pop(key, None)
-    _runs[key] = LastRun(np.asarray(surface.vertices, np.float32), after, pairs)
+    _runs[key] = LastRun(np.asarray(surface.vertices, np.float32), positions, pairs)
     while len(_runs) > 1 and sum(run.n_bytes for run in _runs.values()) > MOST_BYTES:
         del _runs[next(iter(_runs))]
 

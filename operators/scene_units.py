@@ -32,7 +32,10 @@ def displacement_in_scene(
 
 
 def displacement_by(
-    linear: NDArray[np.float64], before: NDArray[np.floating], after: NDArray[np.floating]
+    linear: NDArray[np.float64],
+    before: NDArray[np.floating],
+    after: NDArray[np.floating],
+    n_threads: int = 0,
 ) -> tuple[float, float]:
     """Return how far vertices moved in the scene.
 
@@ -42,6 +45,8 @@ def displacement_by(
         From `linear_part`; the scale counts, also where it differs between the axes.
     before, after : ndarray, shape (N, 3)
         Positions in object space.
+    n_threads : int
+        Number of threads; 0 takes one for each core.
 
     Returns
     -------
@@ -50,9 +55,21 @@ def displacement_by(
     """
     import numpy as np
 
-    moved = after.astype(np.float64) - before
-    squares = np.square(moved @ linear.T).sum(axis=1)
-    return float(np.sqrt(squares.mean())), float(np.sqrt(squares.max()))
+    from ..core.blocks import Blocks
+
+    def measure(start: int, stop: int) -> tuple[float, float]:
+        moved = after[start:stop].T.astype(np.float64, order="C")
+        moved -= before[start:stop].T
+        moved = linear @ moved
+        moved *= moved
+        squares = moved[0]
+        squares += moved[1]
+        squares += moved[2]
+        return float(squares.sum()), float(squares.max())
+
+    with Blocks(n_threads) as blocks:
+        sums, largest = zip(*blocks.run(measure, len(after)), strict=True)
+    return float(np.sqrt(sum(sums) / len(after))), float(np.sqrt(max(largest)))
 
 
 def length_in_scene(obj: bpy.types.Object, length: float) -> float:

@@ -13,7 +13,7 @@ from numpy.typing import DTypeLike, NDArray
 
 from ..automatic.filter import CLEAN, automatic_filter
 from ..blocks import Blocks, Stopped
-from ..memory import check_memory, give_back
+from ..memory import check_memory
 from ..noise import NoiseEstimate, estimate_noise
 from ..normals.filter import normal_filter
 from ..region.finish import Finished, finish
@@ -126,7 +126,6 @@ def _denoise(
         prepared = prepare(surface, settings, connectivity=connectivity, dtype=dtype, should_stop=should_stop)
     elif not prepared.fits(surface, settings, dtype):
         raise ValueError("This was prepared for another mesh or other stencils; prepare it again.")
-    give_back(surface.n_vertices)
     ordered, noisy, connectivity = prepared.ordered, prepared.noisy, prepared.connectivity
     placed = placed.renumbered(prepared.reordering)
     with prepared.blocks.with_threads(settings.threads).stopped_by(should_stop) as blocks:
@@ -263,16 +262,16 @@ def _report(
         displacement_rms=float(np.sqrt(sum(squares) / surface.n_vertices)),
         displacement_max=float(np.sqrt(max(largest))),
         flipped_faces=watch.n_turned,
-        folded_faces=int(watch.is_folded.sum()),
-        folded_faces_before=int(watch.before.is_folded.sum()),
-        degenerate_faces=int(watch.is_degenerate.sum()),
-        degenerate_faces_before=int(watch.before.is_degenerate.sum()),
+        folded_faces=int(np.count_nonzero(watch.is_folded)),
+        folded_faces_before=int(np.count_nonzero(watch.before.is_folded)),
+        degenerate_faces=int(np.count_nonzero(watch.is_degenerate)),
+        degenerate_faces_before=int(np.count_nonzero(watch.before.is_degenerate)),
         damped_vertices=finished.n_damped,
         volume_change=volume_change,
-        irregular_vertices=int(connectivity.is_irregular().sum()),
-        boundary_vertices=int(connectivity.is_boundary.sum()),
-        non_manifold_vertices=int(connectivity.is_non_manifold.sum()),
-        loose_vertices=int(connectivity.is_loose.sum()),
+        irregular_vertices=int(np.count_nonzero(connectivity.is_irregular())),
+        boundary_vertices=int(np.count_nonzero(connectivity.is_boundary)),
+        non_manifold_vertices=int(np.count_nonzero(connectivity.is_non_manifold)),
+        loose_vertices=int(np.count_nonzero(connectivity.is_loose)),
         seconds=perf_counter() - began,
         **known,
     )

@@ -10,9 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import DTypeLike
 
+from ..blocks import Blocks
 from ..settings import DenoiseSettings
 from ..surface.surface_mesh import SurfaceMesh
-from .prepared import Prepared, prepare
+from .prepared import Prepared, prepare_again
 
 MAX_BYTES = 2**30
 """By default this much is kept: what four meshes of half a million vertices need."""
@@ -48,8 +49,10 @@ class PreparationCache:
 
         The arrays of the mesh are kept, and must not be changed afterwards.
         """
-        previous = next((kept for kept in reversed(self._kept) if kept.has_topology_of(surface)), None)
-        prepared = prepare(surface, settings, dtype=dtype, previous=previous, should_stop=should_stop)
+        with Blocks(settings.threads) as blocks:
+            known = (kept for kept in reversed(self._kept) if kept.has_topology_of(surface, blocks))
+            previous = next(known, None)
+        prepared = prepare_again(surface, settings, previous, dtype=dtype, should_stop=should_stop)
         # One for each topology: the old one would only serve if its positions came back.
         self._kept = [kept for kept in self._kept if kept is not previous]
         self._kept.append(prepared)

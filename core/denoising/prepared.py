@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from ..blocks import Blocks
+from ..memory import give_back
 from ..region.face_watch import FaceState
 from ..settings import DEFAULT_PRESET, PRESETS, DenoiseSettings
 from ..surface.checks import check_positions, check_surface
@@ -25,6 +26,9 @@ from ..surface.surface_mesh import SurfaceMesh
 from ..transform import FrameTransform, choose_frame, make_transform
 from .constraints import Corners, find_corners
 from .shrinkage import SEPARABLE
+
+COMPARED_AT_ONCE = 2**18
+"""Rows of two arrays that are compared in one piece."""
 
 TOPOLOGY = tuple(item.name for item in fields(SurfaceMesh) if item.name != "vertices")
 
@@ -75,15 +79,18 @@ class Prepared:
 
     def fits(self, surface: SurfaceMesh, settings: DenoiseSettings, dtype: DTypeLike = np.float32) -> bool:
         """Tell whether this can be used for a mesh and settings: all arrays are compared value by value."""
-        return (
-            self.key == _key(settings, dtype)
-            and self.has_topology_of(surface)
-            and _is_same(self.surface.vertices, surface.vertices)
-        )
+        return self.has_topology_of(surface) and self.fits_positions(surface, settings, dtype)
 
-    def has_topology_of(self, surface: SurfaceMesh) -> bool:
-        """Tell whether this was made for a mesh with the same faces and edges."""
-        return all(_is_same(getattr(self.surface, name), getattr(surface, name)) for name in TOPOLOGY)
+    def has_topology_of(self, surface: SurfaceMesh, blocks: Blocks | None = None) -> bool:
+        """Tell whether this was made for a mesh with the same faces and edges; `blocks` are threads."""
+        own = self.surface
+        return all(_is_same(getattr(own, name), getattr(surface, name), blocks) for name in TOPOLOGY)
+
+    def fits_positions(
+        self, surface: SurfaceMesh, settings: DenoiseSettings, dtype: DTypeLike = np.float32
+    ) -> bool:
+        """Tell whether this can be used for a mesh whose faces and edges are known to be the same."""
+        return self.key == _key(settings, dtype) and _is_same(self.surface.vertices, surface.vertices)
 
 
 def prepare(
@@ -126,10 +133,38 @@ def prepare(
         does not fit it.
     """
     settings = settings or PRESETS[DEFAULT_PRESET].settings
+    if previous is not None and not previous.has_topology_of(surface):
+        previous = None
+    return prepare_again(surface, settings, previous, connectivity, dtype, should_stop)
+
+
+def prepare_again(
+    surface: SurfaceMesh,
+    settings: DenoiseSettings,
+    previous: Prepared | None,
+    connectivity: Connectivity | None = None,
+    dtype: DTypeLike = np.float32,
+    should_stop: Callable[[], bool] | None = None,
+) -> Prepared:
+    """Do what `prepare` does, with something `previous` that is known to have the topology of the mesh."""
+    if previous is not None and previous.fits_positions(surface, settings, dtype):
+        return previous
+    prepared = _prepare(surface, settings, previous, connectivity, dtype, should_stop)
+    give_back(surface.n_vertices)
+    return prepared
+
+
+def _prepare(
+    surface: SurfaceMesh,
+    settings: DenoiseSettings,
+    previous: Prepared | None,
+    connectivity: Connectivity | None,
+    dtype: DTypeLike,
+    should_stop: Callable[[], bool] | None,
+) -> Prepared:
+    """Prepare a mesh, with the neighborhoods of something that has the same topology, if there is one."""
     reordering = None
-    if previous is not None and previous.has_topology_of(surface):
-        if previous.fits(surface, settings, dtype):
-            return previous
+    if previous is not None:
         connectivity, reordering = previous.connectivity, previous.reordering
         if reordering is not None:
             reordering = reordering.with_vertices(surface.vertices)
@@ -159,7 +194,12 @@ def prepare(
                 only_used_bands=settings.shrinkage in SEPARABLE,
             )
         corners = find_corners(ordered, connectivity, settings.boundary)
-    noisy = np.ascontiguousarray(normalized.T, dtype)
+        noisy = np.empty((3, surface.n_vertices), dtype)
+
+        def turn(start: int, stop: int) -> None:
+            noisy[:, start:stop] = normalized[start:stop].T
+
+        blocks.run(turn, surface.n_vertices)
     return Prepared(
         surface, reordering, connectivity, edge, noisy, corners, transform, blocks, _key(settings, dtype)
     )
@@ -173,6 +213,14 @@ def _key(settings: DenoiseSettings, dtype: DTypeLike) -> tuple[Any, ...]:
     return (settings.method, settings.boundary, np.dtype(dtype), *frame)
 
 
-def _is_same(first: NDArray, second: NDArray) -> bool:
+def _is_same(first: NDArray, second: NDArray, blocks: Blocks | None = None) -> bool:
     """Tell whether two arrays have the same type, shape and values."""
-    return first is second or (first.dtype == second.dtype and np.array_equal(first, second))
+    if first is second:
+        return True
+    if first.dtype != second.dtype or first.shape != second.shape:
+        return False
+
+    def kernel(start: int, stop: int) -> bool:
+        return np.array_equal(first[start:stop], second[start:stop])
+
+    return all((blocks or Blocks(1)).sized(COMPARED_AT_ONCE).run(kernel, len(first)))

@@ -18,6 +18,9 @@ from .corner_lists import corners_around, corners_of, face_of, faces_at, some_fa
 DEGENERATE = 1e-6
 """Area up to which a face counts as degenerate."""
 
+LOOKED_AROUND_AT_ONCE = 4096
+"""Faces whose surroundings are added up in one piece."""
+
 
 class FaceState(NamedTuple):
     """Faces of a mesh at some positions: `areas` (3, F), `volume`, `is_folded` (F,), `is_degenerate` (F,)."""
@@ -201,9 +204,13 @@ class FaceWatch:
         parts = self._blocks.run(kernel, n_faces)
         folded = np.concatenate(parts) if parts else np.zeros(0, bool)
         some = np.flatnonzero(folded)
-        if len(some):
-            wanted = some if faces is None else faces[some]
-            folded[some] = dots(areas[:, wanted], self._around(areas, wanted)) < 0.0
+
+        def look_around(start: int, stop: int) -> None:
+            part = some[start:stop]
+            wanted = part if faces is None else faces[part]
+            folded[part] = dots(areas[:, wanted], self._around(areas, wanted)) < 0.0
+
+        self._blocks.sized(LOOKED_AROUND_AT_ONCE).run(look_around, len(some))
         return folded
 
     def _neighbors_disagree(
@@ -233,9 +240,8 @@ class FaceWatch:
         topology = self.carrier.topology
         counts, corner = corners_of(topology, faces)
         wanted = topology.corner_vertex[corner]
-        number = np.full(topology.n_vertices, -1, np.int32)
-        number[wanted] = 0
-        vertices = np.flatnonzero(number == 0)
+        vertices = np.unique(wanted).astype(np.intp)
+        number = np.empty(topology.n_vertices, np.int32)  # of the others nobody asks
         number[vertices] = np.arange(len(vertices), dtype=np.int32)
         near = corners_around(topology, self.carrier.connectivity, vertices)
         place, face = number[topology.corner_vertex[near]], face_of(topology, near)

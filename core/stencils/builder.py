@@ -7,6 +7,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..blocks import Blocks
 from .stencil import Stencil
 
 Place = tuple[int, int]
@@ -28,6 +29,8 @@ class StencilBuilder:
         never set holds the vertex itself: such taps carry no detail.
     is_vertex_centered : bool
         Whether tap 0 is the vertex itself.
+    blocks : Blocks, optional
+        Threads to work on.
     """
 
     def __init__(
@@ -37,13 +40,19 @@ class StencilBuilder:
         n_sites: int | None = None,
         *,
         is_vertex_centered: bool = True,
+        blocks: Blocks | None = None,
     ) -> None:
         self.n_vertices = n_vertices
         self.row_of = {(int(row), int(column)): tap for tap, (row, column) in enumerate(np.asarray(offsets))}
         self._is_vertex_centered = is_vertex_centered and n_sites is None
-        own = np.arange(n_vertices, dtype=np.int32) if n_sites is None else np.zeros(n_sites, np.int32)
-        n_sites = len(own)
-        self.slots = np.repeat(own[None], len(self.row_of), axis=0)
+        is_vertices = n_sites is None
+        n_sites = n_vertices if n_sites is None else n_sites
+        self.slots = slots = np.empty((len(self.row_of), n_sites), np.int32)
+
+        def fill(start: int, stop: int) -> None:
+            slots[:, start:stop] = np.arange(start, stop, dtype=np.int32) if is_vertices else 0
+
+        (blocks or Blocks(1)).run(fill, n_sites)
         self.is_irregular = np.zeros(n_sites, bool)
         self._n_points = n_vertices
         self._counts: list[NDArray[np.int64]] = []

@@ -67,7 +67,7 @@ def make_stencil(
     blocks = blocks or Blocks(1)
     if bank.is_cell_centered or bank.reach > 1:
         return make_walked_stencil(surface, connectivity, boundary, bank, level)
-    builder = StencilBuilder(surface.n_vertices, bank.offsets)
+    builder = StencilBuilder(surface.n_vertices, bank.offsets, blocks=blocks)
     if bank.lattice == "QUADS":
         members = quad_members(surface, connectivity)
         if level:

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..blocks import Blocks
 from ..surface.connectivity import Connectivity
 from ..surface.half_edges import find_half_edges
 from ..surface.surface_mesh import SurfaceMesh
@@ -46,14 +47,20 @@ class Members:
         assert self.far is not None
         return self.far[self.connectivity.ring_offset[vertices] + np.arange(valence)[:, None]]
 
-    def is_found(self) -> NDArray[np.bool_]:
+    def is_found(self, blocks: Blocks | None = None) -> NDArray[np.bool_]:
         """Return a mask of the vertices that have near members, shape (N,), bool.
 
-        A dilated ring is found for all members of a vertex or for none.
+        A dilated ring is found for all members of a vertex or for none. `blocks` are threads to work on.
         """
+        offset, valence = self.connectivity.ring_offset, self.connectivity.valence
         found = np.zeros(self.connectivity.n_vertices, bool)
-        has_ring = self.connectivity.valence > 0
-        found[has_ring] = self.near[self.connectivity.ring_offset[:-1][has_ring]] >= 0
+
+        def kernel(start: int, stop: int) -> None:
+            first = self.near.take(offset[start:stop], mode="clip")
+            np.logical_and(valence[start:stop] > 0, first >= 0, out=found[start:stop])
+
+        if len(self.near):
+            (blocks or Blocks(1)).run(kernel, len(found))
         return found
 
 

@@ -74,12 +74,11 @@ class Stencil:
             Threads to work on.
         """
         offset = self.virtual_offset
-        weight = self.virtual_weight.astype(points.dtype)
 
         def kernel(start: int, stop: int) -> None:
             part = slice(offset[start], offset[stop])
             members = points.take(self.virtual_vertex[part], axis=1, mode="clip")
-            members *= weight[part]
+            members *= self.virtual_weight[part].astype(points.dtype)
             virtual = points[:, self.n_vertices + start : self.n_vertices + stop]
             if members.shape[1] == 2 * (stop - start) and (np.diff(offset[start : stop + 1]) == 2).all():
                 np.add(members[:, 0::2], members[:, 1::2], out=virtual)  # midpoints and mirror images

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
+from ..surface.geometry import coordinate_rows
 from .builder import Place, StencilBuilder
 from .mean import fill_mean
 from .members import Members
@@ -68,33 +69,53 @@ def fill_straight(
         edges between them, or more than `HIGHEST_VALENCE`.
     """
     connectivity = members.connectivity
-    valence = connectivity.valence[wanted]
-    has_ring_edges = connectivity.all_triangles[wanted] & ~connectivity.is_non_manifold[wanted]
-    is_completable = has_ring_edges & (valence >= 3) & (valence < 5)
-    is_pairable = (valence >= 4) & (valence <= HIGHEST_VALENCE) & ~is_completable
-    fill_mean(builder, members.near, connectivity, wanted[is_pairable & (valence == 4)], places)  # third pair
-    rows = np.ascontiguousarray(vertices.T, np.float64)
-    for value in np.unique(valence[is_pairable]):
-        group = wanted[is_pairable & (valence == value)]
-        # Keep the table of pairs of one block in the cache.
-        step = blocks.sized(max(1, 2**18 // (int(value) ** 2)))
 
-        def kernel(start: int, stop: int, group: NDArray[np.intp] = group, value: int = int(value)) -> None:
-            part = group[start:stop]
-            pairs = straight_pairs(rows, part, members.near_rows(part, value), min(value // 2, 3))
-            n_pairs = len(pairs) // 2
-            for pair in range(n_pairs):
-                builder.set(places[pair], part, pairs[pair])
-                builder.set(places[pair + 3], part, pairs[pair + n_pairs])
+    def sort(start: int, stop: int) -> list[NDArray[np.intp]]:
+        part = wanted[start:stop]
+        valence = connectivity.valence[part]
+        has_ring_edges = connectivity.all_triangles[part] & ~connectivity.is_non_manifold[part]
+        is_completable = has_ring_edges & (valence >= 3) & (valence < 5)
+        is_pairable = (valence >= 4) & (valence <= HIGHEST_VALENCE) & ~is_completable
+        four, three = is_completable & (valence == 4), is_completable & (valence == 3)
+        return [part[which] for which in (is_pairable, four, three, ~is_pairable & ~is_completable)]
 
-        step.run(kernel, len(group))
-    for value in (4, 3):
-        group = wanted[is_completable & (valence == value)]
+    sorts = zip(*blocks.run(sort, len(wanted)), strict=True)
+    pairable, four, three, unserved = map(np.concatenate, sorts) if len(wanted) else (wanted,) * 4
+    third = pairable[connectivity.valence[pairable] == 4]
+    fill_mean(builder, members.near, connectivity, third, places)  # its third pair
+    _fill_pairs(builder, coordinate_rows(vertices, blocks), members, pairable, places, blocks)
+    for value, group in ((4, four), (3, three)):
         if len(group):
             completed = complete_rings(builder, vertices, members.near_rows(group, value), 6, blocks)
             for place, points in zip(places, completed, strict=True):
                 builder.set(place, group, points)
-    return wanted[~is_pairable & ~is_completable]
+    return unserved
+
+
+def _fill_pairs(
+    builder: StencilBuilder,
+    points: NDArray[np.float64],
+    members: Members,
+    wanted: NDArray[np.intp],
+    places: Sequence[Place],
+    blocks: Blocks,
+) -> None:
+    """Put the pairs of `straight_pairs` under the taps of vertices; `points` (3, N) are the positions."""
+
+    def kernel(start: int, stop: int) -> None:
+        valence = members.connectivity.valence[wanted[start:stop]]
+        for value in map(int, np.flatnonzero(np.bincount(valence))):
+            group = wanted[start:stop][valence == value]
+            size = max(1, 2**18 // value**2)  # so that the table of pairs stays in the cache
+            for begin in range(0, len(group), size):
+                part = group[begin : begin + size]
+                pairs = straight_pairs(points, part, members.near_rows(part, value), min(value // 2, 3))
+                n_pairs = len(pairs) // 2
+                for pair in range(n_pairs):
+                    builder.set(places[pair], part, pairs[pair])
+                    builder.set(places[pair + 3], part, pairs[pair + n_pairs])
+
+    blocks.run(kernel, len(wanted))
 
 
 def straight_pairs(

@@ -47,7 +47,7 @@ def fill_triangles(
         Threads to work on.
     """
     connectivity = members.connectivity
-    found = members.is_found()
+    found = members.is_found(blocks)
     is_regular = connectivity.is_regular_triangle()
     builder.is_irregular[:] = ~connectivity.is_loose & ~is_regular
     is_rim = connectivity.boundary_neighbors[:, 0] >= 0

@@ -132,41 +132,50 @@ def connect(
     half_edges = find_half_edges(surface, blocks)
     n_vertices = surface.n_vertices
     corner_vertex = surface.corner_vertex
-    count = half_edges.edge_face_count
-    edges = surface.edges
+    count, edges = half_edges.edge_face_count, surface.edges
     n_corners, some_corner = blocks.together(
         lambda: _counted(corner_vertex, n_vertices), lambda: last_corners(corner_vertex, n_vertices)
     )
-    is_loop = edges[:, 0] == edges[:, 1]
-    valence = _valences(edges, count, is_loop, n_corners)
+    # Only edges that do not lie between two faces have to be looked at one by one, and those are few.
+    odd = blocks.indices(lambda start, stop: count[start:stop] != 2, len(edges))
+    loops = blocks.indices(lambda start, stop: edges[start:stop, 0] == edges[start:stop, 1], len(edges))
+    loops = loops[count[loops] > 0]
+    valence = _valences(edges, count, odd, loops, n_corners)
 
-    is_boundary = _marked(n_vertices, edges[count == 1])
-    broken = _marked(n_vertices, edges[(count > 2) | (is_loop & (count > 0))])
-    is_twisted = _marked(n_vertices, corner_vertex[half_edges.is_twisted])
-    is_twisted |= _marked(n_vertices, half_edges.target[half_edges.is_twisted])
+    is_boundary = _marked(n_vertices, edges[odd[count[odd] == 1]])
+    broken = _marked(n_vertices, edges[odd[count[odd] > 2]])
+    broken[edges[loops]] = True
+    is_twisted = _marked(n_vertices, corner_vertex[half_edges.twisted])
+    is_twisted[half_edges.target[half_edges.twisted]] = True
 
-    ring_offset = np.concatenate(([0], np.cumsum(valence, dtype=np.int64)))
+    ring_offset = np.zeros(n_vertices + 1, np.int64)
+    np.cumsum(valence, out=ring_offset[1:])
     rings = Rings(
         ring_offset,
         np.empty(ring_offset[-1], np.int32),
-        np.full(ring_offset[-1], -1, np.int32),
-        np.full((n_vertices, 2), -1, np.int32),
+        np.empty(ring_offset[-1], np.int32),
+        np.empty((n_vertices, 2), np.int32),
     )
     fill_rings(rings, surface, half_edges, n_corners, some_corner, broken, is_twisted, labels, blocks)
     if broken.any():
-        _fill_unordered(edges[(count > 0) & ~is_loop], broken, rings, labels)
+        is_real = count > 0
+        is_real[loops] = False
+        _fill_unordered(edges[is_real], broken, rings, labels)
 
     size = surface.common_face_size()
     has_face = n_corners > 0
     if size:
         face_across = half_edges.partner  # which nothing needs any more
 
-        def divide(start: int, stop: int) -> None:
-            face_across[start:stop] //= np.int32(size)  # the floor of -1 is -1
+        def divide(start: int, stop: int) -> bool:
+            part = face_across[start:stop]
+            part //= np.int32(size)  # the floor of -1 is -1
+            return bool((part >= 0).any())
 
-        blocks.run(divide, surface.n_corners)
+        has_pairs = any(blocks.run(divide, surface.n_corners))
         all_triangles, all_quads = has_face & (size == 3), has_face & (size == 4)
-        has_triangle_pairs = size == 3 and bool((face_across >= 0).any())
+        has_triangle_pairs = size == 3 and has_pairs
+        has_quads = size == 4
     else:
         sizes = surface.face_sizes()
         face_of_corner = np.repeat(np.arange(surface.n_faces, dtype=np.int32), sizes)
@@ -176,6 +185,7 @@ def connect(
         all_quads = has_face & ~_marked(n_vertices, corner_vertex[size_of_corner != 4])
         is_pair = (size_of_corner == 3) & (face_across >= 0) & (sizes[face_across] == 3)
         has_triangle_pairs = bool(is_pair.any())
+        has_quads = bool((sizes == 4).any())
     return Connectivity(
         ring_offset=ring_offset,
         ring=rings.ring,
@@ -189,8 +199,8 @@ def connect(
         all_quads=all_quads,
         edge_face_count=count,
         face_across=face_across,
-        is_oriented=not half_edges.is_twisted.any(),
-        has_quads=bool((surface.face_sizes() == 4).any()),
+        is_oriented=not len(half_edges.twisted),
+        has_quads=has_quads,
         has_triangle_pairs=has_triangle_pairs,
         labels=labels,
     )
@@ -208,22 +218,22 @@ def _counted(owner: NDArray[np.int32], n_owners: int) -> NDArray[np.intp]:
 def _valences(
     edges: NDArray[np.int32],
     count: NDArray[np.int32],
-    is_loop: NDArray[np.bool_],
+    odd: NDArray[np.intp],
+    loops: NDArray[np.intp],
     n_corners: NDArray[np.intp],
 ) -> NDArray[np.int32]:
     """Return the number of edges with faces, loops left out, at each vertex.
 
     Each corner lies between two half-edges of its vertex. So where all edges have two faces there are as many
-    edges as corners, and only the others have to be looked at.
+    edges as corners, and only those with another number of faces, `odd`, and `loops` have to be looked at.
     """
+    if not len(odd) and not len(loops):
+        return n_corners.astype(np.int32)
     half_edges = 2 * n_corners
-    odd = edges[(count != 2) & (count > 0) & ~is_loop]
-    if len(odd):
-        extra = count[(count != 2) & (count > 0) & ~is_loop] - 2
-        half_edges -= np.bincount(odd.ravel(), np.repeat(extra, 2), len(n_corners)).astype(np.intp)
-    if is_loop.any():
-        loops = is_loop & (count > 0)
-        half_edges -= np.bincount(edges[loops, 0], 2 * count[loops], len(n_corners)).astype(np.intp)
+    plain = odd[(count[odd] > 0) & (edges[odd, 0] != edges[odd, 1])]
+    extra = np.repeat(count[plain] - 2, 2)
+    half_edges -= np.bincount(edges[plain].ravel(), extra, len(n_corners)).astype(np.intp)
+    half_edges -= np.bincount(edges[loops, 0], 2 * count[loops], len(n_corners)).astype(np.intp)
     return (half_edges // 2).astype(np.int32)
 
 

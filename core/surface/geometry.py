@@ -11,23 +11,17 @@ from ..blocks import Blocks
 from .surface_mesh import SurfaceMesh
 
 
-def coordinate_rows(
-    surface: SurfaceMesh, blocks: Blocks | None = None, origin: int | None = None
-) -> NDArray[np.float64]:
-    """Return a copy of the positions with coordinates in rows, shape (3, N), float64.
+def coordinate_rows(vertices: NDArray[np.floating], blocks: Blocks | None = None) -> NDArray[np.float64]:
+    """Return a copy of positions, shape (N, 3), with coordinates in rows, shape (3, N), float64.
 
-    They are relative to the vertex `origin`, if it is given. `blocks` are threads to work on.
+    `blocks` are threads to work on.
     """
-    shift = np.zeros(3) if origin is None else surface.vertices[origin].astype(np.float64)
-    rows = np.empty((3, surface.n_vertices))
+    rows = np.empty((3, len(vertices)))
 
     def kernel(start: int, stop: int) -> None:
-        part = rows[:, start:stop]
-        part[:] = surface.vertices[start:stop].T
-        if origin is not None:
-            part -= shift[:, None]
+        rows[:, start:stop] = vertices[start:stop].T
 
-    (blocks or Blocks(1)).run(kernel, surface.n_vertices)
+    (blocks or Blocks(1)).run(kernel, len(vertices))
     return rows
 
 
@@ -41,7 +35,7 @@ def mean_edge_length(
     """
     if not surface.n_corners:
         return 0.0
-    points = coordinate_rows(surface, blocks)
+    points = coordinate_rows(surface.vertices, blocks)
     n_faces = edge_face_count
     if n_faces is None:
         n_faces = np.bincount(surface.corner_edge, minlength=surface.n_edges)
@@ -71,7 +65,7 @@ def face_area_vectors(surface: SurfaceMesh, blocks: Blocks | None = None) -> NDA
     By Newell's formula, which serves planar and non-planar polygons alike: half the cross product of two
     edges for a triangle and half that of the diagonals for a quad. `blocks` are threads to work on.
     """
-    points = coordinate_rows(surface, blocks)
+    points = coordinate_rows(surface.vertices, blocks)
     vectors = np.empty((surface.n_faces, 3))
 
     def kernel(start: int, stop: int) -> None:

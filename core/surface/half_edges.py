@@ -33,6 +33,8 @@ class HalfEdges:
         True if the partner runs in the same direction, so that the two faces disagree in orientation.
     edge_face_count : ndarray, shape (E,), int32
         Number of faces at each edge; 0 for loose edges.
+    twisted : ndarray, shape (t,), intp
+        The half-edges for which `is_twisted` is true.
     """
 
     surface: SurfaceMesh
@@ -40,6 +42,7 @@ class HalfEdges:
     partner: NDArray[np.int32]
     is_twisted: NDArray[np.bool_]
     edge_face_count: NDArray[np.int32]
+    twisted: NDArray[np.intp]
 
     @cached_property
     def next_corner(self) -> NDArray[np.int32]:
@@ -98,14 +101,20 @@ def find_half_edges(surface: SurfaceMesh, blocks: Blocks | None = None) -> HalfE
         partner[is_many] = -1
         is_twisted[is_many] = False
     else:
-        count = (first >= 0).astype(np.int32)
-        count += first != last
+        count = np.empty(surface.n_edges, np.int32)
+
+        def count_faces(start: int, stop: int) -> None:
+            part = slice(start, stop)
+            np.add(first[part] >= 0, first[part] != last[part], out=count[part], dtype=np.int32)
+
+        blocks.run(count_faces, surface.n_edges)
     if any(has_loops for _, has_loops in found):
         # A face that names a vertex twice in a row has an edge from it to itself: no partner can be told.
         loops = target == vertex
         partner[loops] = -1
         is_twisted[loops] = False
-    return HalfEdges(surface, target, partner, is_twisted, count)
+    twisted = blocks.indices(lambda start, stop: is_twisted[start:stop], n_corners)
+    return HalfEdges(surface, target, partner, is_twisted, count, twisted)
 
 
 def last_corners(

@@ -44,7 +44,7 @@ def fill_rings(
     Parameters
     ----------
     rings : Rings
-        Filled.
+        Filled, also with -1 where there is nothing; `ring` is left as it is at vertices without a fan.
     surface : SurfaceMesh
         The mesh.
     half_edges : HalfEdges
@@ -62,24 +62,29 @@ def fill_rings(
     blocks : Blocks
         Threads to work on.
     """
-    has_ring = (n_corners > 0) & ~broken
-    is_long = n_corners > LONGEST_WALK
     corners = _make_corners(half_edges, first, labels, blocks)
-    short = np.where(has_ring & ~is_twisted & ~is_long, n_corners, 0)
 
-    def kernel(start: int, stop: int) -> None:
-        sizes = short[start:stop]
+    def kernel(start: int, stop: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        part = slice(start, stop)
+        rings.corner[rings.offset[start] : rings.offset[stop]] = -1
+        rings.rim[part] = -1
+        sizes = np.where(broken[part], 0, n_corners[part])
+        twisted = np.flatnonzero(is_twisted[part] & (sizes > 0))
+        sizes[twisted] = 0
+        long = np.flatnonzero(sizes > LONGEST_WALK)
+        sizes[long] = 0
         for size in np.flatnonzero(np.bincount(sizes)):
             if size:
                 _fill_short(rings, corners, start + np.flatnonzero(sizes == size), int(size), broken)
+        return start + long, start + twisted
 
-    blocks.run(kernel, surface.n_vertices)
-    wanted = np.flatnonzero(has_ring & ~is_twisted & is_long)
+    found = blocks.run(kernel, surface.n_vertices)
+    wanted = np.concatenate([np.zeros(0, np.intp), *(long for long, _ in found)])
     if len(wanted):
         walks = walk(corners.following, corners.first[wanted], corners.vertex, corners.keys(), blocks)
         source = corners.vertex[half_edges.previous_corner]
         _store(_Fans(walks, wanted, corners.target, source, 1), rings, n_corners, broken)
-    wanted = np.flatnonzero(has_ring & is_twisted)
+    wanted = np.concatenate([np.zeros(0, np.intp), *(twisted for _, twisted in found)])
     if len(wanted):
         _store(_walk_darts(surface, half_edges, wanted, labels, blocks), rings, n_corners, broken)
 
@@ -108,7 +113,7 @@ def _make_corners(
     vertex = surface.corner_vertex
     # The partner of the incoming half-edge leaves the same vertex, in the next face counterclockwise.
     following = shifted(partner, surface, -1, blocks)
-    rim = np.flatnonzero(partner < 0).astype(np.int32)
+    rim = blocks.indices(lambda start, stop: partner[start:stop] < 0, len(partner)).astype(np.int32)
     first[vertex[rim]] = rim  # an open fan begins where no face lies on the other side of the outgoing edge
     return _Corners(following, first, vertex, half_edges.target, half_edges, labels)
 

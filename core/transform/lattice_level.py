@@ -97,7 +97,11 @@ class LatticeLevel:
     ) -> tuple[Points, NDArray[np.floating]]:
         """Analyze a surface and begin to rebuild it; see `Level`."""
         stencil, points = self.stencil, self._points
-        points[:, : stencil.n_vertices] = low
+
+        def copy(start: int, stop: int) -> None:
+            points[:, start:stop] = low[:, start:stop]
+
+        self._blocks.run(copy, stencil.n_vertices)
         stencil.fill_virtual(points, self._blocks)
         # Averages over sites need a low-pass where a vertex is in none.
         needs_low = needs_low or self._incidence is not None

@@ -29,8 +29,8 @@ def torus(make_object, rng):
 
 
 def write_and_remember(obj, surface, vertices):
-    mesh_bridge.write_vertices(obj, surface, vertices)
-    run_memory.remember(obj, surface, vertices, {})
+    positions = mesh_bridge.write_vertices(obj, surface, vertices)
+    run_memory.remember(obj, surface, positions, {})
 
 
 def shown():

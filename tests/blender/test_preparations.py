@@ -22,16 +22,16 @@ TRI_2 = PRESETS["TRI_2"].settings
 def counted(monkeypatch):
     """Start without memory, and count what is prepared anew."""
     made = []
-    original = preparation_cache.prepare
+    original = preparation_cache.prepare_again
 
-    def prepare(*given, previous=None, **more):
-        result = original(*given, previous=previous, **more)
+    def prepare_again(surface, settings, previous, **more):
+        result = original(surface, settings, previous, **more)
         if result is not previous:
             made.append(result)
         return result
 
     preparations.forget_preparations()
-    monkeypatch.setattr(preparation_cache, "prepare", prepare)
+    monkeypatch.setattr(preparation_cache, "prepare_again", prepare_again)
     yield made
     preparations.forget_preparations()
 

@@ -50,14 +50,14 @@ def test_all_methods(preset, settings):
 def test_stencils_are_prepared_once(settings, monkeypatch):
     from framelet.core.denoising import preparation_cache
 
-    made, original = [], preparation_cache.prepare
+    made, original = [], preparation_cache.prepare_again
 
-    def prepare(*given, previous=None, **more):
-        found = original(*given, previous=previous, **more)
+    def prepare_again(surface, settings, previous, **more):
+        found = original(surface, settings, previous, **more)
         made.append(found is previous)
         return found
 
-    monkeypatch.setattr(preparation_cache, "prepare", prepare)
+    monkeypatch.setattr(preparation_cache, "prepare_again", prepare_again)
     noisy_monkey()
     session = turn_on()
     for lambda_ in (0.1, 0.2, 0.3):

@@ -137,6 +137,83 @@ def test_an_error_in_a_kernel_comes_out():
         blocks.run(kernel, 10)
 
 
+def test_of_several_errors_that_of_the_lowest_block_comes_out():
+    """Whichever thread is first: here block 0 fails long after block 1 has."""
+    failed = threading.Event()
+
+    def kernel(start, stop):
+        if start == 0:
+            assert failed.wait(10)
+        failed.set()
+        raise ArithmeticError(f"at {start}")
+
+    for _ in range(20):
+        failed.clear()
+        with Blocks(2, block_size=4) as blocks, pytest.raises(ArithmeticError, match="at 0"):
+            blocks.run(kernel, 40)
+
+
+def test_after_an_error_no_block_is_begun():
+    """Those that have begun are waited for, so that no thread writes to arrays any more."""
+    begun, ended = [], []
+    is_second = threading.Event()
+
+    def kernel(start, stop):
+        begun.append(start)
+        if start == 0:
+            assert is_second.wait(10)
+            raise ArithmeticError
+        is_second.set()
+        for _ in range(1000):
+            sum(range(100))
+        ended.append(start)
+
+    with Blocks(2, block_size=1) as blocks:
+        with pytest.raises(ArithmeticError):
+            blocks.run(kernel, 10_000)
+        assert sorted(begun) == [0, *sorted(ended)]
+        assert len(begun) < 10_000
+        assert blocks.run(lambda start, stop: start, 3) == [0, 1, 2]
+
+
+@pytest.mark.parametrize("threads", [1, 2, 4])
+def test_questions_are_asked_once_for_each_block_on_the_calling_thread(threads):
+    asked, worked = [], []
+
+    def should_stop():
+        asked.append(threading.current_thread())
+        return False
+
+    def kernel(start, stop):
+        worked.append(start)
+
+    with Blocks(threads, block_size=1).stopped_by(should_stop) as blocks:
+        blocks.run(kernel, 50)
+        blocks.sized(20).run(kernel, 50)
+    assert asked == [threading.current_thread()] * 53
+    assert sorted(worked) == sorted([*range(50), 0, 20, 40])
+
+
+@pytest.mark.parametrize("threads", [1, 2, 4])
+def test_all_threads_take_part(threads):
+    """Each block waits until as many threads as there are have begun one."""
+    barrier = threading.Barrier(threads, timeout=10)
+    with Blocks(threads, block_size=1) as blocks:
+        names = blocks.run(lambda start, stop: (barrier.wait(), threading.get_ident())[1], 3 * threads)
+    assert len(set(names)) == threads
+    assert threading.get_ident() in names
+
+
+@pytest.mark.parametrize("threads", [1, 3])
+def test_indices_are_those_of_the_whole_in_order(threads, rng):
+    is_wanted = rng.random(1000) < 0.1
+    with Blocks(threads, block_size=7) as blocks:
+        found = blocks.indices(lambda start, stop: is_wanted[start:stop], 1000)
+        none = blocks.indices(lambda start, stop: is_wanted[start:stop], 0)
+    assert found.tolist() == np.flatnonzero(is_wanted).tolist()
+    assert none.tolist() == [] and none.dtype == np.intp
+
+
 def test_zero_threads_means_all_cores():
     assert Blocks(0).n_threads == available_cores() >= 1
     assert Blocks(3).n_threads == 3

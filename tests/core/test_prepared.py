@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from checks import assert_same_bits, lengths, read_only
 from framelet.core import PRESETS, PreparationCache, Region, SurfaceMesh, denoise, prepare
+from framelet.core.blocks import Blocks
 from framelet.core.denoising import prepared as module
 from framelet.core.denoising.preparation_cache import bytes_of
 from framelet.core.surface.locality import reorder
@@ -48,6 +49,40 @@ def test_a_copy_of_the_mesh_fits(rng):
     prepared = prepare(mesh)
     assert prepared.fits(read_only(mesh), PRESETS["AUTO"].settings)
     denoise(read_only(mesh), prepared=prepared)
+
+
+@pytest.mark.parametrize("name", [item.name for item in fields(SurfaceMesh)])
+@pytest.mark.parametrize("threads", [1, 2])
+def test_one_other_number_anywhere_does_not_fit(name, threads, rng, monkeypatch):
+    """Arrays are compared in pieces; here a piece has seven rows."""
+    monkeypatch.setattr(module, "COMPARED_AT_ONCE", 7)
+    mesh = noisy(triangle_grid(4, 4), rng)
+    settings = settings_of("TRI_2", threads=threads)
+    cache = PreparationCache()
+    prepared = cache.prepare(mesh, settings)
+    for place in range(getattr(mesh, name).size):
+        array = getattr(mesh, name).copy()
+        array.flat[place] += 1
+        other = replace(mesh, **{name: array})
+        assert not prepared.fits(other, settings)
+        with Blocks(threads) as blocks:
+            assert prepared.has_topology_of(other, blocks) == (name == "vertices")
+    longer = np.concatenate((getattr(mesh, name), getattr(mesh, name)[-1:]))
+    assert not prepared.fits(replace(mesh, **{name: longer}), settings)
+    assert prepared.fits(read_only(mesh), settings)
+    assert cache.prepare(read_only(mesh), settings) is prepared
+
+
+def test_memory_is_given_back_only_after_something_was_prepared(rng, monkeypatch):
+    calls = []
+    monkeypatch.setattr(module, "give_back", calls.append)
+    mesh, cache = noisy(triangle_grid(), rng), PreparationCache()
+    settings = settings_of("TRI_2")
+    for changed in (settings, settings.with_changes(lambda_=0.9), settings.with_changes(mu=3.0)):
+        denoise(read_only(mesh), changed, prepared=cache)
+    assert calls == [mesh.n_vertices]
+    denoise(mesh, settings)
+    assert calls == [mesh.n_vertices] * 2
 
 
 @pytest.mark.parametrize("name", [item.name for item in fields(SurfaceMesh)])

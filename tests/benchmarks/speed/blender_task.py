@@ -67,7 +67,7 @@ def main():
     noisy = mesh_bridge.read_surface(obj)
     before = begin_peak()
     watch = Stopwatch()
-    watch.wrap(mesh_bridge, "read_surface_and_movable", "read")
+    watch.wrap(operator_module, "read_job", "read")
     watch.wrap(mesh_bridge, "write_vertices", "write")
     watch.run("all", lambda: operator_module.denoise_object(obj, settings))
     found = {"stages": dict(watch.seconds), "peak": peak_bytes() - before}

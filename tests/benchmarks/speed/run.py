@@ -32,8 +32,13 @@ REPEATS = 3
 def main():
     """Run the benchmark and return the exit code."""
     arguments = parse()
+    try:
+        plan = [] if arguments.again else chosen_runs(arguments)
+    except ValueError as error:
+        print(error, file=sys.stderr)
+        return 2
     arguments.output.mkdir(parents=True, exist_ok=True)
-    rows = read_rows(arguments.again) if arguments.again else measured(arguments)
+    rows = read_rows(arguments.again) if arguments.again else measured(plan, arguments)
     sections = {"targets": target_table(rows), "seconds": seconds_table(rows), "all": full_table(rows)}
     text = "\n".join(f"## {name}\n\n{table}" for name, table in sections.items())
     (arguments.output / "speed.md").write_text(text, encoding="utf-8")
@@ -54,10 +59,10 @@ def main():
     return 0
 
 
-def measured(arguments):
+def measured(plan, arguments):
     """Measure, and return rows with the digits that files have, so that tables can be written again alike."""
     path = arguments.output / "speed.csv"
-    write_rows(measure(arguments), path)
+    write_rows(measure(plan, arguments), path)
     return read_rows(path)
 
 
@@ -83,13 +88,25 @@ def parse():
     return parser.parse_args()
 
 
-def measure(arguments):
-    """Make all runs, one after the other, and return a row of the table for each."""
+def chosen_runs(arguments):
+    """Return the runs that the options ask for; raises ValueError, in one sentence, if there are none."""
     sizes = arguments.sizes or (QUICK_SIZES if arguments.quick else SIZES)
     with_blender = not (arguments.quick or arguments.no_blender)
     plan = make_plan(sizes, with_blender=with_blender, with_others=not arguments.no_others)
-    plan = [run for run in plan if arguments.only in run.what]
-    plan = [run for run in plan if not any(text in run.what for text in arguments.skip)]
+    chosen = [
+        run
+        for run in plan
+        if arguments.only in run.what and not any(text in run.what for text in arguments.skip)
+    ]
+    if not chosen:
+        skipped = f" without those that have {arguments.skip}" if arguments.skip else ""
+        names = ", ".join(dict.fromkeys(f"‘{run.what}’" for run in plan))
+        raise ValueError(f"No run has {arguments.only!r} in its name{skipped}; the names are {names}.")
+    return chosen
+
+
+def measure(plan, arguments):
+    """Make all runs, one after the other, and return a row of the table for each."""
     blender = python_of(arguments.blender) if any(run.kind == "blender" for run in plan) else ""
     rows = []
     for number, run in enumerate(plan, 1):

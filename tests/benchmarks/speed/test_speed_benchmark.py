@@ -58,6 +58,24 @@ def test_tables_can_be_written_again(quick, tmp_path):
     )
 
 
+@pytest.mark.parametrize(
+    ("words", "reason"),
+    [
+        (("--only", "Tri-3"), "No run has 'Tri-3' in its name; the names are "),
+        (("--only", "Tri-2", "--skip", "Tri", "x"), "No run has 'Tri-2' in its name without those that have"),
+    ],
+)
+def test_a_name_that_fits_no_run_is_an_error(words, reason, tmp_path):
+    folder = tmp_path / "speed"
+    result = run("--quick", "--output", folder, *words)
+    assert result.returncode == 2
+    assert result.stderr.startswith(reason)
+    assert len(result.stderr.splitlines()) == 1
+    for name in ("‘Tri-2’", "‘Tri-2, shuffled’", "‘Adaptive, 3 levels’", "‘Automatic’"):
+        assert result.stderr.count(name) == 1, "each name is told once, whatever the number of sizes"
+    assert not folder.exists(), "nothing is written"
+
+
 def test_the_best_of_several_runs():
     """In a Python of its own, as other benchmarks have modules of the same names."""
     tries = [{"stages": {"all": t, "rerun": r}, "peak": p} for t, r, p in ((3, 2, 1), (1, 9, 5), (2, 1, 7))]
