@@ -110,7 +110,7 @@ def automatic_filter(
             connectivity=connectivity,
         )
         step = (1.0 - CHOOSING_SHARE) / n_ticks(choice)
-        problem = NormalProblem(noisy, surface, connectivity, sigma, blocks)
+        problem = NormalProblem(noisy, surface, connectivity, choice.sigma or sigma, blocks)
         points = run_choice(problem, choice, constraints, lambda change: advance(step, change))
     except _Stopped:
         return Automatic(noisy, 0, True, noise, "")

@@ -21,10 +21,21 @@ from .recipes import n_ticks as n_ticks_of_recipes
 
 
 class Choice(NamedTuple):
-    """One recipe, or two whose results are averaged, and what follows."""
+    """What is run on a mesh.
+
+    Attributes
+    ----------
+    recipes : tuple of Recipe
+        One recipe, or two whose results are averaged.
+    finish : Finish
+        What follows.
+    sigma : float, optional
+        Standard deviation of the noise, in mean edge lengths, if the trials found another one.
+    """
 
     recipes: tuple[Recipe, ...]
     finish: Finish = Finish()
+    sigma: float | None = None
 
     @property
     def label(self) -> str:
@@ -49,7 +60,7 @@ def run_choice(
     problem: NormalProblem, choice: Choice, constraints: Constraints, tick: Tick = lambda _: None
 ) -> NDArray[np.floating]:
     """Return denoised positions, shape (3, N), without folds as far as possible."""
-    recipes, finish = choice
+    recipes, finish, _ = choice
     problem.is_frugal = len(recipes) == 1 and problem.surface.n_faces >= MANY_ITEMS
     is_mean, is_finished = len(recipes) > 1, finish != Finish()
     is_unfolded = is_mean or not is_finished  # else it would be done twice

@@ -18,6 +18,7 @@ from framelet.core.automatic.run_choice import Choice, n_ticks, run_choice
 from framelet.core.automatic.trial import Trial
 from framelet.core.blocks import Blocks
 from framelet.core.denoising.constraints import find_constraints
+from framelet.core.surface.geometry import vertex_normals
 from kinds import ALONE, KIND, KINDS
 from meshes import noisy, triangle_torus
 
@@ -167,6 +168,31 @@ def test_pairs_for_the_first_choice_are_good_alone(rng, monkeypatch):
     monkeypatch.setattr(choose, "NEARLY_BEST", 1.0)
     choose.choose_recipes(mesh.vertices.T.copy(), mesh, 0.1, ALONE)
     assert [len(choice) for choice in seen] == [1]
+
+
+@pytest.mark.parametrize(("factor", "strength"), [(0.4, 1.0), (1.0, 1.5), (2.0, 1.0)])
+def test_impulsive_noise_is_measured_by_what_recipes_take_away(factor, strength, rng):
+    """Where it was measured too weak or too strong; other noise is taken as it is given."""
+    mesh = triangle_torus(24, 30)
+    points = mesh.vertices.T.copy()
+    truth = 0.2 * np.sqrt(0.5)
+    amount = 0.2 * rng.normal(size=mesh.n_vertices) * (rng.random(mesh.n_vertices) < 0.5)
+    spoiled = points + amount * vertex_normals(mesh).T
+    given = factor * strength * truth
+    choice = choose.choose_recipes(spoiled, mesh, given, ALONE, strength=strength, is_impulsive=True)
+    assert (choice.sigma or given) / truth / strength == pytest.approx(1.0, abs=0.25)
+    assert choose.choose_recipes(spoiled, mesh, given, ALONE, strength=strength).sigma is None
+
+
+def test_the_run_reckons_with_the_noise_that_was_found(rng, monkeypatch):
+    mesh, seen = noisy(triangle_torus(), rng), []
+    begin = NormalProblem.__init__
+    monkeypatch.setattr(
+        NormalProblem, "__init__", lambda self, *given: seen.append(given[3]) or begin(self, *given)
+    )
+    monkeypatch.setattr(engine, "choose_recipes", lambda *_, **__: Choice(RECIPES[-1:], sigma=0.123))
+    denoise(mesh, AUTO)
+    assert seen == [0.123]
 
 
 def test_whether_noise_is_impulsive_is_passed_on(rng, monkeypatch):

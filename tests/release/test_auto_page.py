@@ -21,6 +21,7 @@ from framelet.core.automatic.recipes import RECIPES, Recipe
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = " ".join((ROOT / "docs" / "how_auto_decides.md").read_text(encoding="utf-8").split())
+TIMES = {2: "twice"}
 WORDS = {10: "ten", 2: "two", 3: "three", 4: "four", 19: "nineteen"}
 
 
@@ -81,7 +82,9 @@ def test_the_number_of_recipes():
     "words",
     [
         f"Below {filter.LEAST_NOISE} the mesh counts as clean",
-        f"at most {filter.LARGEST_RATIO} times that of the quieter places",
+        f"takes the place of sigma, up to {filter.LARGEST_RATIO} times it",
+        f"another number by more than {choose.WELL_MEASURED:.0%}, all recipes are tried again with it, "
+        f"{TIMES[choose.MEASURINGS]} at most".replace("%", " %"),
         f"the whole mesh up to {patches.WHOLE:,} faces, on {WORDS[patches.N_PATCHES]} patches of about "
         f"{patches.FACES_IN_PATCH:,} faces",
         f"the inner {patches.INNER:.0%} of the radius".replace("%", " %"),
