@@ -56,7 +56,8 @@ def held_in_place(
     before = normals_of(points, surface, blocks)
     least_cosine = np.cos(np.radians(LARGEST_TURN))
     face_of_corner = np.repeat(np.arange(surface.n_faces), surface.face_sizes())
-    for halving in range(HALVINGS + 1):
+    n_rounds = 0
+    while True:
         held = points - shares * within
         cosines = np.einsum("cf,cf->f", before, normals_of(held, surface, blocks))
         # Faces without an area have no normal to turn, before or after.
@@ -64,7 +65,8 @@ def held_in_place(
         if not turns.any():
             return held
         turned = surface.corner_vertex[turns[face_of_corner]]
-        shares[turned] *= 0.5
-        if halving == HALVINGS:
-            shares[turned] = 0.0
-    return points - shares * within
+        if not shares[turned].any():
+            return held  # by rounding only: a face whose vertices all stay does not turn
+        # Vertices that stay may turn faces whose others go back, so that this takes as many rounds as it needs.
+        shares[turned] *= 0.5 if n_rounds < HALVINGS else 0.0
+        n_rounds += 1
