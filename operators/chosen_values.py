@@ -14,6 +14,10 @@ if TYPE_CHECKING:
     from ..core.denoising.report import DenoiseReport
 
 
+BETWEEN_LABELS = "; "
+"""Stands between what was chosen for several objects."""
+
+
 def chosen_texts(report: DenoiseReport) -> dict[str, str]:
     """Return the settings that a run chose, by property of `FrameletNoise`; empty if it chose none.
 
@@ -27,20 +31,28 @@ def chosen_texts(report: DenoiseReport) -> dict[str, str]:
         return {"chosen_lambda": f"{settings.lambda_:.3g}", "chosen_mu": f"{settings.mu:.3g}"}
     if settings.method != "AUTO":
         return {}
-    from ..core.automatic.recipes import RECIPES
-
-    recipe_part, _, finish_part = report.recipe.partition(" (")
-    labels = recipe_part.split(" and ")
-    # "Flat and sharp" has the same word in it that stands between two recipes.
-    recipes = [recipe for recipe in RECIPES if _is_named(recipe.label.split(" and "), labels)]
+    recipes = _recipes_of(report.recipe)
     texts = [_recipe_texts(recipe) for recipe in recipes]
     names = texts[0] if texts else {}
     lines = {name: "\n".join(dict.fromkeys(each[name] for each in texts if each[name])) for name in names}
-    chosen = [*(recipe_lines(recipe.label) for recipe in recipes), finish_part.rstrip(")")]
-    return {
-        "chosen_recipe": "\n".join(filter(None, chosen)) if recipes else report.recipe,
-        **lines,
-    }
+    return {"chosen_recipe": "\n".join(chosen_lines(report.recipe)), **lines}
+
+
+def chosen_lines(label: str) -> list[str]:
+    """Return what was chosen for an object as lines that fit into the sidebar; each is a text to translate."""
+    recipes = _recipes_of(label)
+    lines = [line for recipe in recipes for line in recipe_lines(recipe.label).splitlines()]
+    finish = label.partition(" (")[2].rstrip(")")
+    return [*lines, finish] if lines and finish else lines or [label]
+
+
+def _recipes_of(label: str) -> list[Recipe]:
+    """Return the recipes that a label names, without what follows them."""
+    from ..core.automatic.recipes import RECIPES
+
+    words = label.partition(" (")[0].split(" and ")
+    # "Flat and sharp" has the same word in it that stands between two recipes.
+    return [recipe for recipe in RECIPES if _is_named(recipe.label.split(" and "), words)]
 
 
 def recipe_lines(label: str) -> str:

@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
-from .chosen_values import chosen_texts
+from .chosen_values import BETWEEN_LABELS, chosen_texts
 
 if TYPE_CHECKING:
     from ..core import Comparison, NoiseEstimate
@@ -54,7 +54,9 @@ def fill_report(properties: FrameletReport, measured: Mapping[str, MeasuredRepor
     volumes = [report.volume_change for report in reports if report.volume_change is not None]
     properties.is_closed = len(volumes) == len(reports)
     properties.volume_change = 100.0 * max(volumes, key=abs, default=0.0)
-    properties.recipe = ", ".join(dict.fromkeys(report.recipe for report in reports if report.recipe))
+    properties.recipe = BETWEEN_LABELS.join(
+        dict.fromkeys(report.recipe for report in reports if report.recipe)
+    )
     texts = {_parameters_text(report) for report in reports}
     properties.parameters = texts.pop() if len(texts) == 1 else "Different for each"
     noises = [report.noise for report in reports if report.noise is not None]

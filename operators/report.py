@@ -116,7 +116,7 @@ class FrameletReport(bpy.types.PropertyGroup):
     noise_sigma_edges: _edges("In Edge Lengths", f"{_SIGMA} mean edge lengths")
     is_impulsive: BoolProperty(name="Impulsive", description=f"Of any object: {_IMPULSIVE.lower()}")
     recipe: StringProperty(
-        name="Recipe", description="What automatic denoising chose, separated by commas if objects differ"
+        name="Recipe", description="What automatic denoising chose, separated by semicolons if objects differ"
     )
     parameters: StringProperty(
         name="Parameters", description="What was taken from the measured noise; empty if nothing was"

@@ -9,6 +9,7 @@ from bpy.app.translations import pgettext_iface as iface_
 from bpy.app.translations import pgettext_n as n_
 
 from ..operators.add_noise import OBJECT_OT_framelet_add_noise
+from ..operators.chosen_values import BETWEEN_LABELS, chosen_lines
 from ..operators.compare import OBJECT_OT_framelet_compare
 from ..operators.estimate_noise import OBJECT_OT_framelet_estimate_noise
 from .layouts import FrameletPanel, draw_lengths, draw_value
@@ -65,7 +66,8 @@ def _chosen_lines(context: bpy.types.Context, report: bpy.types.PropertyGroup) -
     entry = context.window_manager.framelet_estimate.objects.get(report.names)
     if report.recipe and entry and entry.is_denoised:
         return entry.chosen_recipe.splitlines()
-    return report.recipe.split(", ") if report.recipe else []
+    labels = report.recipe.split(BETWEEN_LABELS) if report.recipe else []
+    return [line for label in labels for line in chosen_lines(label)]
 
 
 class VIEW3D_PT_framelet_noise(FrameletPanel, bpy.types.Panel):

@@ -67,6 +67,6 @@ def held_in_place(
         turned = surface.corner_vertex[turns[face_of_corner]]
         if not shares[turned].any():
             return held  # by rounding only: a face whose vertices all stay does not turn
-        # Vertices that stay may turn faces whose others go back, so that this takes as many rounds as it needs.
+        # Vertices that stay may turn faces whose others go back: this takes as many rounds as it needs.
         shares[turned] *= 0.5 if n_rounds < HALVINGS else 0.0
         n_rounds += 1

@@ -200,7 +200,11 @@ def _describe_noise(report: DenoiseReport, noise: NoiseEstimate) -> str:
     text = f"  noise of {noise.sigma:.4g} ({noise.sigma_edges:.3g} mean edge lengths)"
     if noise.is_impulsive:
         text += ", impulsive"
+    from ...core.automatic.filter import CLEAN
+
     used = report.settings
+    if report.recipe == CLEAN:
+        return f"{text}; clean already."
     if report.recipe:
         return f"{text}; chosen for it: {report.recipe}."
     iterations = count(used.iterations, "iteration")

@@ -90,7 +90,7 @@ def test_noise_of_several_objects():
     squares = np.array([report.noise.sigma for report in reports]) ** 2
     report = last_report()
     assert report.noise_sigma == pytest.approx(np.sqrt((counts * squares).sum() / counts.sum()))
-    assert report.recipe == ", ".join(dict.fromkeys(report.recipe for report in reports))
+    assert report.recipe == "; ".join(dict.fromkeys(report.recipe for report in reports))
 
 
 def test_a_run_without_noise_shows_none_of_an_earlier_one():
@@ -109,7 +109,7 @@ def test_the_sentence_names_noise_and_recipe(capfd):
     bpy.ops.object.framelet_denoise()
     recipe = last_report().recipe
     assert re.search(
-        rf"; noise [\d.]+ c?m \(\d\.\d{{3}} edge lengths(, impulsive)?\); used {recipe}\n",
+        rf"; noise [\d.]+ c?m \(\d\.\d{{3}} edge lengths(, impulsive)?\); used {re.escape(recipe)}\n",
         capfd.readouterr().out,
     )
     bpy.ops.object.framelet_denoise(preset="TRI_2")

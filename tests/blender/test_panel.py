@@ -8,10 +8,14 @@ import bpy
 import framelet.ui
 import pytest
 from drawing import draw
+from framelet.core.automatic.finish import FINISHES
+from framelet.core.automatic.recipes import RECIPES
+from framelet.core.automatic.run_choice import Choice
 from framelet.core.settings import PRESETS
 from framelet.operators import setting_values
 from framelet.ui import panel, region_panel, report_panels
 from framelet.ui.layouts import FrameletPanel
+from framelet.ui.translations import german_reports
 
 
 def test_panels_are_registered_in_one_tab():
@@ -72,6 +76,21 @@ def test_last_run_before_and_after():
     bpy.ops.object.framelet_denoise(preset="TRI_2")
     labels = draw(report_panels.VIEW3D_PT_framelet_last_run)["label"]
     assert not {"Noise", "Chosen", "From Noise"} & set(labels)
+
+
+def test_last_run_of_several_objects_has_lines_for_each():
+    bpy.ops.mesh.primitive_monkey_add()
+    report = bpy.context.window_manager.framelet_report
+    bpy.ops.object.framelet_denoise()
+    long = Choice(RECIPES[-2:], FINISHES[-1]).label
+    report.names, report.recipe = "A, B", "; ".join((long, RECIPES[0].label, "Clean already"))
+    labels = draw(report_panels.VIEW3D_PT_framelet_last_run)["label"]
+    lines = [line for line in labels[labels.index("Chosen") + 1 : labels.index("Iterations")] if line]
+    assert lines == [
+        *["Soft relief", "after smoothing 8", "Soft and coarse 32", "refined twice, in place"],
+        *["Flat and sharp", "Clean already"],
+    ]
+    assert all(line in german_reports.TEXTS for line in lines)
 
 
 CHOSEN = ["Chosen", "Frame", "Levels", "Smoothing λ", "Penalty μ"]

@@ -104,8 +104,8 @@ TEXTS = {
     "What automatic denoising chose; empty if it did not run": (
         "Was das automatische Entrauschen wählte; leer, wenn es nicht lief"
     ),
-    "What automatic denoising chose, separated by commas if objects differ": (
-        "Was das automatische Entrauschen wählte, durch Kommas getrennt, wenn Objekte sich unterscheiden"
+    "What automatic denoising chose, separated by semicolons if objects differ": (
+        "Was das automatische Entrauschen wählte, durch Semikola getrennt, wenn Objekte sich unterscheiden"
     ),
     "The noise by object": "Das Rauschen je Objekt",
     "The objects that were denoised, separated by commas": "Die entrauschten Objekte, durch Kommas getrennt",
