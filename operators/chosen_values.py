@@ -39,7 +39,7 @@ def chosen_texts(report: DenoiseReport) -> dict[str, str]:
 
 
 def chosen_lines(label: str) -> list[str]:
-    """Return what was chosen for an object as lines that fit into the sidebar; each is a text to translate."""
+    """Return what was chosen for an object as lines that fit into the sidebar, texts to translate."""
     recipes = _recipes_of(label)
     lines = [line for recipe in recipes for line in recipe_lines(recipe.label).splitlines()]
     finish = label.partition(" (")[2].rstrip(")")

@@ -17,14 +17,20 @@ from ..settings import DenoiseSettings
 from ..surface.connectivity import Connectivity
 from ..surface.surface_mesh import SurfaceMesh
 from .choose import choose_recipes
+from .patches import WHOLE
 from .problem import NormalProblem
+from .recipes import RECIPES
 from .run_choice import n_ticks, run_choice
 
 LEAST_NOISE = 0.004
 """Noise in mean edge lengths below which a mesh counts as clean and is left alone."""
 
-CHOOSING_SHARE = 0.5
-"""Share of the progress that choosing takes."""
+CHOOSING_TIME = 3.0 * len(RECIPES)
+RUNNING_TIME = 4.0
+"""Time for each face that is tried, and for each face of the mesh, in about the time of a recipe."""
+
+LARGEST_SHARE = 0.9
+"""Of the progress, for choosing."""
 
 LARGEST_RATIO = 1.4
 """Of impulsive noise the root mean square counts, up to so many times the noise of the quieter places: on
@@ -91,6 +97,7 @@ def automatic_filter(
     if sigma < LEAST_NOISE:
         return Automatic(noisy, 0, False, noise, CLEAN)
     done = 0.0
+    choosing = choosing_share(surface.n_faces)
 
     def advance(share: float, change: float = 0.0) -> None:
         nonlocal done
@@ -104,14 +111,20 @@ def automatic_filter(
             surface,
             sigma,
             blocks,
-            lambda share: advance(CHOOSING_SHARE * share),
+            lambda share: advance(choosing * share),
             strength=settings.strength,
             is_impulsive=noise.is_impulsive,
             connectivity=connectivity,
         )
-        step = (1.0 - CHOOSING_SHARE) / n_ticks(choice)
+        step = (1.0 - choosing) / n_ticks(choice)
         problem = NormalProblem(noisy, surface, connectivity, choice.sigma or sigma, blocks)
         points = run_choice(problem, choice, constraints, lambda change: advance(step, change))
     except _Stopped:
         return Automatic(noisy, 0, True, noise, "")
     return Automatic(points, choice.vertex_steps, False, noise, choice.label)
+
+
+def choosing_share(n_faces: int) -> float:
+    """Return the share of the progress that choosing takes: large meshes are tried in part only."""
+    choosing = CHOOSING_TIME * min(n_faces, WHOLE)
+    return min(LARGEST_SHARE, choosing / max(choosing + RUNNING_TIME * n_faces, 1.0))

@@ -31,7 +31,7 @@ _SPARSE = 64
 """Of so many faces one is looked at to see how far a patch may reach."""
 
 
-class Trial(NamedTuple):
+class Part(NamedTuple):
     """A part of a mesh: its vertices' numbers (n,), the part as a mesh, and which vertices count."""
 
     vertices: NDArray[np.integer]
@@ -39,7 +39,7 @@ class Trial(NamedTuple):
     counts: NDArray[np.bool_]
 
 
-def trial_part(points: NDArray[np.floating], surface: SurfaceMesh) -> Trial:
+def trial_part(points: NDArray[np.floating], surface: SurfaceMesh) -> Part:
     """Return the part of a mesh on which recipes are tried; small meshes whole.
 
     Parameters
@@ -51,11 +51,11 @@ def trial_part(points: NDArray[np.floating], surface: SurfaceMesh) -> Trial:
 
     Returns
     -------
-    Trial
+    Part
     """
     if surface.n_faces <= WHOLE:
         everything = np.arange(surface.n_vertices)
-        return Trial(everything, surface, np.ones(surface.n_vertices, bool))
+        return Part(everything, surface, np.ones(surface.n_vertices, bool))
     centroids = face_centroids(points, surface)
     is_chosen = np.zeros(surface.n_faces, bool)
     is_inner = np.zeros(surface.n_vertices, bool)
@@ -76,7 +76,7 @@ def trial_part(points: NDArray[np.floating], surface: SurfaceMesh) -> Trial:
         is_inner[_corners_of(surface, faces[touched])] = False
         faces = np.delete(faces, touched)
         vertices, part = _part_of(surface, faces)
-    return Trial(vertices, part, is_inner[vertices])
+    return Part(vertices, part, is_inner[vertices])
 
 
 def _part_of(surface: SurfaceMesh, faces: NDArray[np.intp]) -> tuple[NDArray[np.int32], SurfaceMesh]:

@@ -63,7 +63,8 @@ def run_choice(
     recipes, finish, _ = choice
     problem.is_frugal = len(recipes) == 1 and problem.surface.n_faces >= MANY_ITEMS
     is_mean, is_finished = len(recipes) > 1, finish != Finish()
-    is_unfolded = is_mean or not is_finished  # else it would be done twice
+    # A result that is finished is unfolded afterwards; a mean is of results without folds.
+    is_unfolded = is_mean or not is_finished
     points = problem.run(recipes[0], constraints, tick, is_unfolded=is_unfolded)
     if is_mean:
         points = sum((problem.run(recipe, constraints, tick) for recipe in recipes[1:]), points)

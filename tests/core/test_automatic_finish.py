@@ -88,7 +88,7 @@ def test_a_finished_run(finish, rng):
         assert (found != mesh.vertices.T).any()
 
 
-def test_a_further_pass_brings_a_cube_nearer(rng):
+def test_a_further_pass_brings_a_ridge_nearer(rng):
     """From a pilot with the right planes, and with noise that it has to see through."""
     grid = triangle_grid(24, 24)
     folded = grid.vertices.copy()

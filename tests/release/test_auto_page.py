@@ -99,7 +99,7 @@ def test_the_number_of_recipes():
         f"is within {choose.NEARLY_BEST - 1:.0%} of the least one".replace("%", " %"),
         f"Means of two of the {choose.N_PAIRED} best results",
         f"Beyond {choose.PAIRED_UP_TO:,} faces only single recipes are candidates",
-        f"Beyond {choose.PAIRED_UP_TO:,} faces only *in place* is tried",
+        f"Beyond {choose.PAIRED_UP_TO:,} faces there are none.",
         f"in one of {len(finish.FINISHES)} ways",
         f"turns by more than {hold.LARGEST_TURN:.0f} degrees its vertices go half as far, "
         f"{WORDS[hold.HALVINGS]} times",
