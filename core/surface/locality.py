@@ -147,7 +147,7 @@ def reorder(
     blocks = (blocks or Blocks(1)).sized(_ITEMS_AT_ONCE)
     n_vertices = surface.n_vertices
     old_number = np.asarray(vertex_order, np.int32)
-    new_number = _inverse(old_number)
+    new_number = _inverse(old_number, blocks)
     corner_vertex = _taken(new_number, surface.corner_vertex, blocks)
     edges = _taken(new_number, surface.edges.reshape(-1), blocks).reshape(-1, 2)
 
@@ -156,33 +156,52 @@ def reorder(
     firsts = (corner_vertex[filled] if surface.n_corners else sizes, edges[:, 0])
     orders = blocks.sized(1).run(lambda one, _: _coarse_order(firsts[one], n_vertices), 2)
     face_order, edge_order = orders
-    offset = np.concatenate(([0], np.cumsum(sizes[face_order]))).astype(np.int32)
-    new_edge = _inverse(edge_order)
+    size = surface.common_face_size()
+    offset = surface.face_offset  # if all faces have as many corners, they begin where they did
+    if not size:
+        offset = np.concatenate(([0], np.cumsum(sizes[face_order]))).astype(np.int32)
+    new_edge = _inverse(edge_order, blocks)
     moved_vertex, moved_edge = np.empty_like(corner_vertex), np.empty_like(corner_vertex)
+    moved_edges = np.empty_like(edges)
 
     def move(start: int, stop: int) -> None:
         faces = face_order[start:stop]
+        if size:
+            rows = [
+                x.reshape(-1, size) for x in (corner_vertex, surface.corner_edge, moved_vertex, moved_edge)
+            ]
+            rows[0].take(faces, axis=0, out=rows[2][start:stop], mode="clip")
+            new_edge.take(rows[1].take(faces, axis=0), out=rows[3][start:stop], mode="clip")
+            return
         part = slice(offset[start], offset[stop])
         corner = np.arange(part.start, part.stop)
         corner += np.repeat(surface.face_offset[faces] - offset[start:stop], sizes[faces])
         corner_vertex.take(corner, out=moved_vertex[part], mode="clip")
         new_edge.take(surface.corner_edge[corner], out=moved_edge[part], mode="clip")
 
+    def move_edges(start: int, stop: int) -> None:
+        edges.take(edge_order[start:stop], axis=0, out=moved_edges[start:stop], mode="clip")
+
     blocks.run(move, surface.n_faces)
+    blocks.run(move_edges, len(edges))
     renumbered = SurfaceMesh(
         vertices=surface.vertices.take(old_number, axis=0),
         corner_vertex=moved_vertex,
         corner_edge=moved_edge,
         face_offset=offset,
-        edges=edges.take(edge_order, axis=0),
+        edges=moved_edges,
     )
     return Reordering(renumbered, old_number, face_order)
 
 
-def _inverse(order: NDArray[np.int32]) -> NDArray[np.int32]:
+def _inverse(order: NDArray[np.int32], blocks: Blocks) -> NDArray[np.int32]:
     """Return the new number of each item, from the items in their new order."""
     number = np.empty(len(order), np.int32)
-    number[order] = np.arange(len(order), dtype=np.int32)
+
+    def write(start: int, stop: int) -> None:
+        number[order[start:stop]] = np.arange(start, stop, dtype=np.int32)
+
+    blocks.run(write, len(order))
     return number
 
 
