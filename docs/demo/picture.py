@@ -19,7 +19,7 @@ class Column(NamedTuple):
 
     obj: bpy.types.Object
     title: str
-    caption: str
+    caption: str  # may have several lines
     colors: str = ""
 
 
@@ -34,6 +34,7 @@ class View(NamedTuple):
 TILE_WIDTH = 280
 GAP = 8
 TEXT_HEIGHT = 76
+LINE_HEIGHT = 24
 VIEWS = (
     View((0.07, 0.0, -0.02), 2.82, 250),
     View((0.25, -0.7, 0.2), 1.0, 280),
@@ -73,7 +74,9 @@ def render_picture(columns: Sequence[Column], path: Path, views: Sequence[View] 
     scene = bpy.context.scene
     _prepare(scene)
     width = len(columns) * (TILE_WIDTH + GAP) + GAP
-    height = TEXT_HEIGHT + sum(view.height + GAP for view in views)
+    n_lines = max(len(column.caption.splitlines()) for column in columns)
+    text_height = TEXT_HEIGHT + (max(n_lines, 1) - 1) * LINE_HEIGHT
+    height = text_height + sum(view.height + GAP for view in views)
     sheet = np.ones((height, width, 4), np.float32)
     sheet[:, :, :3] = PAPER
     with TemporaryDirectory(prefix="framelet-") as folder:
@@ -85,7 +88,7 @@ def render_picture(columns: Sequence[Column], path: Path, views: Sequence[View] 
             column.obj.data.materials.append(_clay(column.colors))
             column.obj.data.shade_flat()
             column.obj.hide_render = False
-            top = TEXT_HEIGHT
+            top = text_height
             for view in views:
                 _aim(scene, view)
                 tile = _render(scene, temporary, TILE_WIDTH, view.height)
@@ -93,7 +96,7 @@ def render_picture(columns: Sequence[Column], path: Path, views: Sequence[View] 
                 top += view.height + GAP
             column.obj.hide_render = True
         _remove(scene, "LIGHT")
-        _paste(sheet, _render_captions(scene, columns, temporary, width), 0, 0)
+        _paste(sheet, _render_captions(scene, columns, temporary, (width, text_height)), 0, 0)
         _remove(scene, "FONT")
         _remove(scene, "CAMERA")
     _save(scene, sheet, path)
@@ -179,17 +182,20 @@ def _aim(scene: bpy.types.Scene, view: View) -> None:
 
 
 def _render_captions(
-    scene: bpy.types.Scene, columns: Sequence[Column], temporary: Path, width: int
+    scene: bpy.types.Scene, columns: Sequence[Column], temporary: Path, size: tuple[int, int]
 ) -> np.ndarray:
     """Render the texts above the columns; one scene unit is one pixel."""
+    width, height = size
+    lift = 0.5 * (height - TEXT_HEIGHT)
     for number, column in enumerate(columns):
         center = GAP + number * (TILE_WIDTH + GAP) + 0.5 * TILE_WIDTH - 0.5 * width
-        _write(scene, column.title, (center, 7.0), 28.0, INK)
-        _write(scene, column.caption, (center, -21.0), 19.0, PALE_INK)
+        _write(scene, column.title, (center, lift + 7.0), 28.0, INK)
+        for line_number, line in enumerate(column.caption.splitlines()):
+            _write(scene, line, (center, lift - 21.0 - line_number * LINE_HEIGHT), 19.0, PALE_INK)
     scene.camera.data.ortho_scale = width
     scene.camera.location = (0.0, 0.0, 10.0)
     scene.camera.rotation_euler = (0.0, 0.0, 0.0)
-    return _render(scene, temporary, width, TEXT_HEIGHT)
+    return _render(scene, temporary, width, height)
 
 
 def _write(

@@ -24,6 +24,7 @@ load_framelet()
 
 from framelet.core import PRESETS, denoise  # noqa: E402
 from framelet.operators import mesh_bridge  # noqa: E402
+from framelet.operators.chosen_values import chosen_lines  # noqa: E402
 from framelet.operators.command_line.blender_output import captured_output  # noqa: E402
 from meshes import copy_with_vertices  # noqa: E402
 from picture import DIRECTION, Column, View, render_picture  # noqa: E402
@@ -97,14 +98,15 @@ def denoised(obj: bpy.types.Object, strengths: tuple[float, ...]) -> list[Column
         title, caption = "Bilateral", f"{report.iterations} iterations"
         if report.noise is not None:
             title = "Automatic" if settings.strength == 1.0 else f"Strength {settings.strength:g}"
-            caption = report.recipe
+            caption = "\n".join(chosen_lines(report.recipe))
             noise = report.noise.rms if report.noise.is_impulsive else report.noise.sigma
             kind = "impulsive noise" if report.noise.is_impulsive else "noise"
             print(f"Measured: {kind} of {noise / report.mean_edge_length:.3f} edge lengths.")
         columns.append(Column(copy_with_vertices(obj, title, result.vertices), title, caption))
         print(
-            f"{title}: {caption}; moved {report.displacement_rms / report.mean_edge_length:.3f} "
-            f"edge lengths (rms), {report.flipped_faces} faces turned over, {report.seconds:.1f} s.",
+            f"{title}: {report.recipe or caption}; "
+            f"moved {report.displacement_rms / report.mean_edge_length:.3f} edge lengths (rms), "
+            f"{report.flipped_faces} faces turned over, {report.seconds:.1f} s.",
             flush=True,
         )
     return columns
