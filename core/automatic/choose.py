@@ -13,13 +13,14 @@ from numpy.typing import NDArray
 from ..blocks import Blocks
 from ..surface.connectivity import Connectivity
 from ..surface.surface_mesh import SurfaceMesh
+from .choose_finish import choose_finish
 from .finish import FINISHES, N_PASSES
 from .recipes import RECIPES
 from .rehearsal import Rehearsal
 from .roughness import Roughness
-from .run_choice import Choice, finished
-from .score import HELD, IN_PLACE, PASSED, risk_of, scores
-from .trial import Trial, mean_of
+from .run_choice import Choice
+from .score import risk_of, scores
+from .trial import Trial
 
 HOPELESS = 1.5
 """A recipe whose mean squared displacement is so many times that of the noise, or of most recipes, is given
@@ -161,30 +162,5 @@ def choose_recipes(
     tick(share * trial.n_draws * (len(recipes) - len(best)))
     angles = np.array([rehearsal.angle(choice) for choice in choices])
     last = choices[int(np.argmin(scores(judged, angles, strength=strength)))]
-
-    def judge_finishes() -> NDArray[np.float64]:
-        """Return the same three numbers for each way to finish the last choice."""
-        results = list(finished(trial.problem, trial.mean_of(last), finishes, after_pass=lambda: tick(share)))
-        follows = np.zeros(len(results))
-        for probe in trial.probes:
-            moved = finished(
-                probe.problem, mean_of(probe.results, last), finishes, after_pass=lambda: tick(share)
-            )
-            follows += [trial.follows(probe, *pair) for pair in zip(moved, results, strict=True)]
-        return np.array(
-            [
-                (risk_of(trial.height_of(result), divergence), *rough.of(result))
-                for result, divergence in zip(results, follows / trial.n_probes, strict=True)
-            ]
-        )
-
-    finish_angles = rehearsal.angles_finished(last, finishes, lambda: tick(share))
-    finish_judged = judge_finishes()
-    passed = scores(finish_judged, finish_angles, strength, PASSED)
-    held = scores(finish_judged, finish_angles, strength, HELD)
-    held *= 1.0 - IN_PLACE * np.array([finish.held for finish in finishes])
-    # How vertices are held is chosen among those with the best passes.
-    best_passed = min((i for i, finish in enumerate(finishes) if not finish.held), key=lambda i: passed[i])
-    of_best = [i for i, finish in enumerate(finishes) if finish.passed == finishes[best_passed].passed]
-    finish = min(of_best, key=lambda i: held[i])
-    return Choice(tuple(recipes[index] for index in last), finishes[finish], found_sigma)
+    finish = choose_finish(trial, rehearsal, rough, last, finishes, lambda: tick(share), strength)
+    return Choice(tuple(recipes[index] for index in last), finish, found_sigma)

@@ -254,7 +254,7 @@ def test_figures_of_files(shared_meshes, file, noise, angle):
     assert compare(found, clean).mean_angle <= angle
 
 
-@pytest.mark.parametrize("file", ["fandisk", "sphere16k", "bunny_closed35k"])
+@pytest.mark.parametrize("file", ["tri/fandisk", "tri/sphere16k", "tri/bunny_closed35k", "quad/botijo10k"])
 def test_clean_files_are_left_alone(shared_meshes, file):
-    report = denoise(read_mesh(shared_meshes / "tri" / f"{file}.ply", np.float64), AUTO).report
+    report = denoise(read_mesh(shared_meshes / f"{file}.ply", np.float64), AUTO).report
     assert report.displacement_rms < 0.02 * report.mean_edge_length

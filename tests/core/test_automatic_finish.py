@@ -7,6 +7,8 @@ import pytest
 from checks import assert_same_bits
 from framelet.core import PRESETS, compare, connect
 from framelet.core.automatic import choose
+from framelet.core.automatic import problem as problem_module
+from framelet.core.automatic import run_choice as run_choice_module
 from framelet.core.automatic.finish import BROAD, FINE, FINISHES, N_PASSES, Finish
 from framelet.core.automatic.problem import NormalProblem
 from framelet.core.automatic.recipes import RECIPES
@@ -76,16 +78,47 @@ def test_ways_to_finish_have_names_of_their_own():
     assert chosen.label == f"{RECIPES[0].label} and {RECIPES[1].label} (in place)"
 
 
-@pytest.mark.parametrize("finish", FINISHES, ids=lambda finish: finish.label or "plain")
-def test_a_finished_run(finish, rng):
+@KIND
+@pytest.mark.parametrize("boundary", ["FREE", "ALONG", "FIXED"])
+def test_finished_runs_of_every_kind_of_mesh(kind, boundary, rng):
     """Vertices that may not move stay, and every number is one."""
+    mesh = noisy(KINDS[kind](), rng, 0.05)
+    movable = rng.random(mesh.n_vertices) < 0.7
+    connectivity = connect(mesh)
+    held = find_constraints(
+        mesh, connectivity, AUTO.with_changes(boundary=boundary), movable, np.dtype(np.float32)
+    )
+    still = ~movable | (connectivity.is_boundary if boundary == "FIXED" else False)
+    points = mesh.vertices.T.astype(np.float32)
+    for finish in (FINISHES[2], FINISHES[7], FINISHES[-1]):
+        problem = NormalProblem(points.copy(), mesh, connectivity, 0.1, ALONE)
+        found = run_choice(problem, Choice((LOW_PASS, RECIPES[0]), finish), held)
+        assert found.dtype == np.float32 and np.isfinite(found).all()
+        assert_same_bits(found[:, still], points[:, still])
+
+
+@pytest.mark.parametrize("finish", FINISHES, ids=lambda finish: finish.label or "plain")
+def test_a_finished_run_moves_what_it_may(finish, rng):
     mesh = noisy(triangle_torus(8, 10), rng, 0.05)
     movable = rng.random(mesh.n_vertices) < 0.7
     for recipes in (RECIPES[:1], (LOW_PASS, RECIPES[0])):
         found = run_choice(problem_of(mesh), Choice(recipes, finish), free(mesh, movable))
-        assert np.isfinite(found).all()
         assert_same_bits(found[:, ~movable], mesh.vertices.T[:, ~movable])
         assert (found != mesh.vertices.T).any()
+
+
+@KIND
+def test_runs_that_save_memory_give_the_same(kind, rng, monkeypatch):
+    """Large meshes keep less for later, and make it again."""
+    mesh = noisy(KINDS[kind](), rng, 0.05)
+    choices = [Choice(RECIPES[:1]), Choice(RECIPES[:1], FINISHES[2]), Choice(RECIPES[3:4], FINISHES[-1])]
+    plain = [run_choice(problem_of(mesh), choice, free(mesh)) for choice in choices]
+    for module in (problem_module, run_choice_module):
+        monkeypatch.setattr(module, "MANY_ITEMS", 0)
+    for choice, expected in zip(choices, plain, strict=True):
+        problem = problem_of(mesh)
+        assert_same_bits(run_choice(problem, choice, free(mesh)), expected)
+        assert problem.is_frugal
 
 
 def test_a_further_pass_brings_a_ridge_nearer(rng):
