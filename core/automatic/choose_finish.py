@@ -47,8 +47,8 @@ def choose_finish(
 
     Notes
     -----
-    Passes are chosen among the ways that hold no vertex. How far vertices are held is chosen for these passes,
-    by a score in which roughness counts more: a rehearsal does not know noise within the surface.
+    Passes are chosen among the ways that hold no vertex. How far vertices are held is chosen for these, by a
+    score in which roughness counts more: a rehearsal does not know noise within the surface.
     """
     angles = rehearsal.angles_finished(choice, finishes, tick)
     judged = _judged(trial, rough, choice, finishes, tick)
