@@ -43,7 +43,7 @@ def chosen_lines(label: str) -> list[str]:
     recipes = _recipes_of(label)
     lines = [line for recipe in recipes for line in recipe_lines(recipe.label).splitlines()]
     finish = label.partition(" (")[2].rstrip(")")
-    return [*lines, finish] if lines and finish else lines or [label]
+    return [*lines, *filter(None, finish.split(", "))] if lines else [label]
 
 
 def _recipes_of(label: str) -> list[Recipe]:

@@ -31,7 +31,7 @@ def messages():
         for path in sorted((ROOT / folder).glob("*.py")):
             found |= _of_source(path)
     found |= {("*", recipe.label) for recipe in RECIPES} | {("*", CLEAN)}
-    found |= {("*", finish.label) for finish in FINISHES}
+    found |= {("*", words) for finish in FINISHES for words in finish.label.split(", ")}
     found |= {("*", line) for recipe in RECIPES for line in recipe_lines(recipe.label).splitlines()}
     # A name may be empty, and what has no letters is the same in every language.
     return {(context, text) for context, text in found if any(map(str.isalpha, text))}

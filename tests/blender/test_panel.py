@@ -68,9 +68,11 @@ def test_last_run_before_and_after():
     lines = labels[labels.index("Chosen") + 1 : labels.index("Iterations")]
     # A line each, as in the panel above: two recipes do not fit into one, nor does what follows.
     names, _, finish = recipe.partition(" (")
-    lines_of_names = [line for line in lines if line and line != finish.rstrip(")")]
-    assert " and ".join(lines_of_names).replace(" and after ", " after ") == names != ""
-    assert [line for line in lines if line][len(lines_of_names) :] == ([finish[:-1]] if finish else [])
+    words = [word for word in finish.rstrip(")").split(", ") if word]
+    shown = [line for line in lines if line]
+    of_names = shown[: len(shown) - len(words)]
+    assert " and ".join(of_names).replace(" and after ", " after ") == names != ""
+    assert shown[len(of_names) :] == words
     assert lines == panel_lines("Chosen", panel.VIEW3D_PT_framelet, "Frame")
     assert re.fullmatch(r"[\d.]+ c?m", labels[labels.index("Noise") + 1])
     bpy.ops.object.framelet_denoise(preset="TRI_2")
@@ -87,7 +89,7 @@ def test_last_run_of_several_objects_has_lines_for_each():
     labels = draw(report_panels.VIEW3D_PT_framelet_last_run)["label"]
     lines = [line for line in labels[labels.index("Chosen") + 1 : labels.index("Iterations")] if line]
     assert lines == [
-        *["Soft relief", "after smoothing 8", "Soft and coarse 32", "refined twice, in place"],
+        *["Soft relief", "after smoothing 8", "Soft and coarse 32", "refined twice", "in place"],
         *["Flat and sharp", "Clean already"],
     ]
     assert all(line in german_reports.TEXTS for line in lines)

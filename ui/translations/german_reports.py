@@ -2,18 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """German for measurements and reports in the sidebar."""
 
-# How the result of recipes is finished: two halves of a line, either of which may be missing.
-_REFINED = {
-    "": "",
-    "half refined": "halb verfeinert",
-    "refined": "verfeinert",
-    "half refined finely": "halb fein verfeinert",
-    "refined finely": "fein verfeinert",
-    "half refined twice": "halb zweimal verfeinert",
-    "refined twice": "zweimal verfeinert",
-}
-_HELD = {"": "", "half in place": "halb am Ort", "in place": "am Ort"}
-
 TEXTS = {
     "Framelet": "Framelet",
     "Advanced": "Erweitert",
@@ -43,12 +31,14 @@ TEXTS = {
     **{f"Smooth and even after smoothing {n}": f"Glatt und gleichmäßig nach Glättung {n}" for n in (4, 16)},
     **{f"Fine relief after smoothing {n}": f"Feines Relief nach Glättung {n}" for n in (8, 16)},
     **{f"Smooth and coarse {number}": f"Glatt und grob {number}" for number in (24, 32, 128, 192)},
-    **{
-        ", ".join(filter(None, (refined, held))): ", ".join(filter(None, (_REFINED[refined], _HELD[held])))
-        for refined in _REFINED
-        for held in _HELD
-        if refined or held
-    },
+    "refined": "verfeinert",
+    "half refined": "halb verfeinert",
+    "refined finely": "fein verfeinert",
+    "half refined finely": "halb fein verfeinert",
+    "refined twice": "zweimal verfeinert",
+    "half refined twice": "halb zweimal verfeinert",
+    "in place": "am Ort",
+    "half in place": "halb am Ort",
     "Clean already": "Schon sauber",
     "Low-pass": "Tiefpass",
     "Pairwise (normals)": "Paarweise (Normalen)",
