@@ -144,3 +144,10 @@ print(len(found))
 def test_probe_blocks(blocked):
     result = probe([blocked], f"importlib.import_module({blocked!r})")
     assert "out of bounds" in result.stderr
+
+
+def test_the_check_closes_no_pipe_early():
+    """With pipefail, a program that writes into a closed pipe fails the check, now and then only."""
+    text = (ROOT / ".ci" / "run").read_text(encoding="utf-8")
+    assert "set -euo pipefail" in text
+    assert not re.search(r"\|\s*(head|grep -q)\b", text)
