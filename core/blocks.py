@@ -68,7 +68,7 @@ class Blocks:
     def stopped_by(self, should_stop: Callable[[], bool] | None) -> Blocks:
         """Ask a function before each block, until this is left: True raises `Stopped`. Return this object.
 
-        It is asked on the thread that `run` was called on.
+        It is asked on the thread that `run` was called on; kernels that call `run` themselves ask on theirs.
         """
         self._should_stop = should_stop
         return self
