@@ -33,6 +33,9 @@ them farther because they take shape away, and no recipe leaves much of the nois
 MEASURINGS = 2
 """How often, at most, impulsive noise is measured so."""
 
+LARGEST_CORRECTION = 4.0
+"""Factor by which a measuring changes the noise at most."""
+
 WELL_MEASURED = 0.1
 """Impulsive noise that was measured wrong by a smaller share is not tried again."""
 
@@ -105,9 +108,9 @@ def choose_recipes(
 
     Of impulsive noise the measured sigma says little, as it follows the quieter places. But whatever recipes
     do, most of what they take away is noise, so that displacements say how strong it is; if that is another
-    number, all recipes are tried once more with it.
+    number, all recipes are tried again with it, `MEASURINGS` times at most.
 
-    Ways to finish what was chosen are judged by the same score.
+    Ways to finish what was chosen are judged by scores like the last one; see `choose_finish`.
     """
     is_large = surface.n_faces > PAIRED_UP_TO
     recipes = [recipe for recipe in RECIPES if recipe.is_quick or not is_large]
@@ -122,11 +125,12 @@ def choose_recipes(
     spread = np.mean(trial.heights**2, axis=1)
     found_sigma: float | None = None
     for _ in range(MEASURINGS if is_impulsive else 0):
-        level = float(np.sqrt(np.quantile(spread, CAREFUL_SHARE))) * trial.sigma * strength
-        if abs(level / trial.sigma - 1.0) <= WELL_MEASURED:
+        ratio = strength * float(np.sqrt(np.quantile(spread, CAREFUL_SHARE)))
+        if abs(ratio - 1.0) <= WELL_MEASURED:
             break
-        found_sigma = level
-        trial = Trial(noisy, surface, level, recipes, blocks, connectivity)
+        # Where recipes move next to nothing, as on a few faces, they say nothing about the noise either.
+        found_sigma = trial.sigma * min(max(ratio, 1.0 / LARGEST_CORRECTION), LARGEST_CORRECTION)
+        trial = Trial(noisy, surface, found_sigma, recipes, blocks, connectivity)
         trial.run(lambda: tick(0.0))
         spread = np.mean(trial.heights**2, axis=1)
     # Where the noise is measured too weak, all that do away with it move vertices farther than it says.

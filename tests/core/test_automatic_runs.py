@@ -20,7 +20,7 @@ from framelet.core.blocks import Blocks
 from framelet.core.denoising.constraints import find_constraints
 from framelet.core.surface.geometry import vertex_normals
 from kinds import ALONE, KIND, KINDS
-from meshes import noisy, triangle_torus
+from meshes import noisy, triangle_grid, triangle_torus
 
 AUTO = PRESETS["AUTO"].settings
 PAIRS = list(combinations(RECIPES, 2))
@@ -180,6 +180,15 @@ def test_impulsive_noise_is_measured_by_what_recipes_take_away(factor, strength,
     choice = choose.choose_recipes(spoiled, mesh, given, ALONE, strength=strength, is_impulsive=True)
     assert (choice.sigma or given) / truth / strength == pytest.approx(1.0, abs=0.25)
     assert choose.choose_recipes(spoiled, mesh, given, ALONE, strength=strength).sigma is None
+
+
+def test_recipes_that_move_nothing_do_not_measure_the_noise_as_nothing():
+    """All vertices of a flat sheet lie where every recipe would have them."""
+    mesh = triangle_grid(6, 6)
+    choice = choose.choose_recipes(mesh.vertices.T.copy(), mesh, 0.1, ALONE, is_impulsive=True)
+    assert choice.sigma == pytest.approx(0.1 / choose.LARGEST_CORRECTION**choose.MEASURINGS)
+    problem = NormalProblem(mesh.vertices.T.copy(), mesh, connect(mesh), choice.sigma, ALONE)
+    assert np.isfinite(run_choice(problem, choice, free(mesh))).all()
 
 
 def test_the_run_reckons_with_the_noise_that_was_found(rng, monkeypatch):
