@@ -24,7 +24,7 @@ def chosen_texts(report: DenoiseReport) -> dict[str, str]:
     Automatic denoising cleans normals with the pairwise frame between faces. Its λ is a multiple of what the
     noise makes of the differences between neighboring faces, its levels are the bands of weighted averages.
     Where it took a low-pass of positions instead, there are no λ and μ. Where it took the mean of two
-    recipes, there is a line for each, and one for how the result was finished.
+    recipes, there is a line for each, and lines follow for how the result was finished.
     """
     settings = report.settings
     if settings.method == "POSITIONS" and report.noise is not None:
