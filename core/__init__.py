@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from .frames import BANKS, FilterBank
     from .metrics import Comparison, compare
     from .noise import NoiseEstimate, add_noise, estimate_noise
+    from .noise.field import NoiseBelief, NoiseField, noise_field
     from .region.region import Region
     from .settings import DEFAULT_PRESET, PRESETS, DenoiseSettings
     from .stencils import Stencil, make_stencil
@@ -37,7 +38,9 @@ _HOMES = {
     "FilterBank": ".frames",
     "FrameCoefficients": ".transform",
     "FrameTransform": ".transform",
+    "NoiseBelief": ".noise.field",
     "NoiseEstimate": ".noise",
+    "NoiseField": ".noise.field",
     "PRESETS": ".settings",
     "PreparationCache": ".denoising.preparation_cache",
     "Prepared": ".denoising.prepared",
@@ -54,6 +57,7 @@ _HOMES = {
     "estimate_noise": ".noise",
     "make_stencil": ".stencils",
     "make_transform": ".transform",
+    "noise_field": ".noise.field",
     "prepare": ".denoising.prepared",
     "synthesize": ".transform",
 }
@@ -70,7 +74,9 @@ __all__ = [
     "FilterBank",
     "FrameCoefficients",
     "FrameTransform",
+    "NoiseBelief",
     "NoiseEstimate",
+    "NoiseField",
     "PreparationCache",
     "Prepared",
     "Region",
@@ -86,6 +92,7 @@ __all__ = [
     "estimate_noise",
     "make_stencil",
     "make_transform",
+    "noise_field",
     "prepare",
     "synthesize",
 ]

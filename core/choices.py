@@ -21,17 +21,17 @@ METHODS = (
     Choice(
         "AUTO",
         "Automatic",
-        "Measures the noise, tries several ways of cleaning the directions of the faces, and takes the best",
-    ),
-    Choice(
-        "NORMALS",
-        "Normals (keeps features)",
-        "Cleans the directions of the faces, then fits the vertices to them; keeps sharp features",
+        "Learned shrinkage: cleans the directions of the faces, then fits the vertices to them; keeps features",
     ),
     Choice("POSITIONS", "Positions (paper)", "Split Bregman on vertex positions with a tight wavelet frame"),
     Choice(
         "BILATERAL", "Bilateral", "Bilateral mesh filtering (Fleishman et al. 2003), the paper's baseline"
     ),
+)
+NOISES = (
+    Choice("AUTO", "Automatic", "What the mesh shows; fine relief stays where it can be told from noise"),
+    Choice("FINE", "Fine", "Different from vertex to vertex; what is wider is taken for relief"),
+    Choice("WIDE", "Wide", "Smooth over several edges, or steps of voxels and terraces; fine relief goes too"),
 )
 TUNINGS = (
     Choice("GIVEN", "As Set", "The values that are set"),

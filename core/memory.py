@@ -15,14 +15,9 @@ BASE_PER_VERTEX = 110
 BASE_PER_CORNER = 45
 """Bytes for the neighborhoods and for positions in several forms, which every method needs."""
 
-NORMALS_PER_CORNER = 125
-"""Bytes for the engine on face normals, most of them weights of averages; all figures here are measured by
+LEARNED_PER_CORNER = 150
+"""Bytes for learned shrinkage: states of faces and pairs, and features; all figures here are measured by
 `tests/benchmarks/speed`."""
-
-AUTOMATIC_PER_CORNER = 65
-RECIPES_ONCE = 24 * 2**20
-"""Bytes for automatic denoising besides: fields, their bands and a second result; and once, for measuring the
-noise and for trying all recipes on parts of a limited size."""
 
 ADAPTIVE_PER_TAP = 12
 ADAPTIVE_ONCE = 100
@@ -57,10 +52,8 @@ def estimated_bytes(n_vertices: int, n_corners: int, settings: DenoiseSettings) 
         Bytes; a model with measured constants. On large meshes it is 1.1 to 1.7 times the peak.
     """
     total = _FIXED + BASE_PER_VERTEX * n_vertices + BASE_PER_CORNER * n_corners
-    if settings.method == "NORMALS":
-        return total + NORMALS_PER_CORNER * n_corners
     if settings.method == "AUTO":
-        return total + RECIPES_ONCE + (NORMALS_PER_CORNER + AUTOMATIC_PER_CORNER) * n_corners
+        return total + LEARNED_PER_CORNER * n_corners
     if settings.method == "BILATERAL":
         reach = max(1, ceil(2.0 * settings.sigma_c))
         # Two numbers for each pair of neighbors, kept once, and held three more times while they are found.

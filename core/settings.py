@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from typing import Any, NamedTuple
 
-from .choices import BOUNDARIES, FRAMES, METHODS, SHRINKAGES, STENCILS, TUNINGS
+from .choices import BOUNDARIES, FRAMES, METHODS, NOISES, SHRINKAGES, STENCILS, TUNINGS
 from .setting_info import SettingInfo as SettingInfo
 from .setting_info import check_value
 from .setting_info import setting_field as _setting
@@ -35,11 +35,28 @@ class DenoiseSettings:
     strength: float = _setting(
         1.0,
         "Strength",
-        "Strength of the noise that is removed, in units of the noise that was measured: larger removes more "
-        "noise and more detail; 1 trusts the measurement, 0 changes nothing",
+        "How strong the noise is taken to be, in units of what the mesh shows: larger removes more noise and "
+        "more detail; 1 trusts the mesh, 0 changes nothing",
         minimum=0.0,
         maximum=10.0,
         soft_maximum=2.0,
+        methods=("AUTO",),
+    )
+    noise: str = _setting(
+        "AUTO",
+        "Noise",
+        "How wide the noise is: fine relief and wide noise look alike, and nobody but you knows which it is",
+        choices=NOISES,
+        methods=("AUTO",),
+    )
+    passes: int = _setting(
+        2,
+        "Passes",
+        "How often the surface is cleaned, each time guided by the result before: larger cleans strong noise "
+        "on machine parts better",
+        minimum=1,
+        maximum=10,
+        soft_maximum=4,
         methods=("AUTO",),
     )
     tuning: str = _setting(
@@ -141,64 +158,6 @@ class DenoiseSettings:
         symbol="σs",
         methods=("BILATERAL",),
     )
-    normal_threshold: float = _setting(
-        0.15,
-        "Threshold",
-        "Normals: differences between neighboring faces up to this count as noise, in units of the median "
-        "difference; larger removes stronger noise and more detail",
-        minimum=0.0,
-        maximum=10.0,
-        soft_maximum=1.0,
-        methods=("NORMALS",),
-    )
-    sharpness: float = _setting(
-        0.0,
-        "Sharpening",
-        "Normals: above 0, jumps of unit normals that are much longer than this are kept whole, for shapes "
-        "made of planes; larger keeps fewer of them",
-        minimum=0.0,
-        maximum=2.0,
-        soft_maximum=0.5,
-        methods=("NORMALS",),
-    )
-    sigma_n: float = _setting(
-        0.3,
-        "Crease",
-        "Normals: faces whose unit normals are farther apart than this are not averaged; larger smooths over "
-        "sharper creases",
-        minimum=0.01,
-        maximum=2.0,
-        soft_maximum=1.0,
-        symbol="σn",
-        methods=("NORMALS",),
-    )
-    average_steps: int = _setting(
-        10,
-        "Averaging Steps",
-        "Normals: steps of averaging in each pass; larger makes wider, flatter regions; 0 leaves it out",
-        minimum=0,
-        maximum=1000,
-        soft_maximum=40,
-        methods=("NORMALS",),
-    )
-    passes: int = _setting(
-        2,
-        "Passes",
-        "Normals: passes of averaging, each guided by the one before; larger finds creases better",
-        minimum=1,
-        maximum=100,
-        soft_maximum=5,
-        methods=("NORMALS",),
-    )
-    vertex_steps: int = _setting(
-        15,
-        "Vertex Steps",
-        "Normals: steps of fitting the vertices to the cleaned directions; larger fits them better",
-        minimum=1,
-        maximum=1000,
-        soft_maximum=50,
-        methods=("NORMALS",),
-    )
     threads: int = _setting(
         0,
         "Threads",
@@ -239,28 +198,28 @@ class Preset(NamedTuple):
 PRESETS: Mapping[str, Preset] = {
     "AUTO": Preset(
         "Automatic",
-        "For any noisy mesh: measures the noise and chooses everything else; keeps sharp features",
+        "For any noisy mesh: sees how strong the noise is at each place; keeps sharp features",
         {"method": "AUTO"},
     ),
     "FREE_FORM": Preset(
         "Scan (free-form)",
-        "For scans and organic shapes: works on normals, keeps fine relief and soft edges",
-        {"method": "NORMALS", "sigma_n": 0.35, "average_steps": 4},
+        "For scans and organic shapes: takes noise that is several edges wide for noise, too",
+        {"method": "AUTO", "noise": "WIDE"},
     ),
     "PRISMATIC": Preset(
         "CAD (prismatic)",
-        "For machine parts and buildings: works on normals, makes flat faces and sharp creases",
-        {"method": "NORMALS", "sigma_n": 0.2, "average_steps": 25, "vertex_steps": 20},
+        "For machine parts and buildings with strong noise: one pass more, for sharper creases",
+        {"method": "AUTO", "passes": 3},
     ),
     "MARCHING_CUBES": Preset(
         "Marching Cubes / CT",
         "For surfaces made of voxels, as from CT: turns steps into smooth shapes and does not shrink them",
-        {"method": "NORMALS", "sigma_n": 0.8, "average_steps": 12},
+        {"method": "AUTO", "noise": "WIDE", "strength": 2.0, "passes": 3},
     ),
     "SCULPT": Preset(
         "Sculpt (keep detail)",
         "For sculpted and finely detailed meshes with a little noise: keeps strokes a few edges wide",
-        {"method": "NORMALS", "sigma_n": 0.25, "average_steps": 1},
+        {"method": "AUTO", "noise": "FINE", "strength": 0.75},
     ),
     "POSITIONS": Preset(
         "Positions",

@@ -49,7 +49,7 @@ class OBJECT_OT_framelet_analyze(FrameMixin, LevelsMixin, StoreMixin, bpy.types.
 
 
 class OBJECT_OT_framelet_clear(bpy.types.Operator):
-    """Remove all bands and colors that Framelet stored on the selected meshes"""
+    """Remove all that Framelet stored on the selected meshes: bands, colors, and the noise"""
 
     bl_idname = "object.framelet_clear"
     bl_label = "Clear Bands"

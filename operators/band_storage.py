@@ -16,6 +16,8 @@ from .mesh_bridge import ownership_refusal
 from .setting_values import FRAME_NAMES
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     import bpy
     import numpy as np
     from numpy.typing import NDArray
@@ -29,8 +31,12 @@ REST = "framelet_rest"
 COLORS = "framelet_band"
 HEAT_COLORS = "framelet_heat_map"
 COLORS_BEFORE = "framelet_colors_before"
+NOISE = "framelet_noise"
+NOISE_WIDTH = "framelet_noise_width"
+"""Of the noise map: the numbers themselves, which stay when colors go, so that masks go on working."""
 
-_OURS = re.compile(rf"{LOW}|{REST}|{COLORS}|{HEAT_COLORS}|framelet_L\d+_B\d+(_edges)?")
+_BANDS = re.compile(rf"{LOW}|{REST}|framelet_L\d+_B\d+(_edges)?")
+_OURS = re.compile(rf"{_BANDS.pattern}|{COLORS}|{HEAT_COLORS}|{NOISE}|{NOISE_WIDTH}")
 _AGAIN = "analyze it again."
 
 
@@ -174,6 +180,18 @@ def read_vectors(obj: bpy.types.Object, name: str, domain: str) -> NDArray[np.fl
     return vectors
 
 
+def write_numbers(mesh: bpy.types.Mesh, name: str, values: NDArray[np.floating]) -> None:
+    """Write an attribute of numbers at the vertices, shape (N,), in the place of any of that name."""
+    import numpy as np
+
+    attribute = mesh.attributes.get(name)
+    if attribute is not None and (attribute.data_type, attribute.domain) != ("FLOAT", "POINT"):
+        mesh.attributes.remove(attribute)
+        attribute = None
+    attribute = attribute or mesh.attributes.new(name, "FLOAT", "POINT")
+    attribute.data.foreach_set("value", np.ascontiguousarray(values, np.float32))
+
+
 def write_colors(
     mesh: bpy.types.Mesh, colors: NDArray[np.float32], name: str = COLORS, domain: str = "POINT"
 ) -> None:
@@ -207,20 +225,15 @@ def write_colors(
 
 
 def remove_bands(mesh: bpy.types.Mesh) -> None:
-    """Remove the stored bands and the note, but not the colors."""
-    for name in [item.name for item in mesh.attributes]:
-        if _OURS.fullmatch(name) and name not in (COLORS, HEAT_COLORS):
-            mesh.attributes.remove(mesh.attributes[name])
+    """Remove the stored bands and the note, but neither colors nor the noise."""
+    _remove(mesh, [item.name for item in mesh.attributes if _BANDS.fullmatch(item.name)])
     if NOTE in mesh:
         del mesh[NOTE]
 
 
 def remove_colors(mesh: bpy.types.Mesh) -> None:
     """Remove the colors of a band or heat map; those that were active before are active again."""
-    for name in (COLORS, HEAT_COLORS):
-        attribute = mesh.attributes.get(name)
-        if attribute is not None:
-            mesh.attributes.remove(attribute)
+    _remove(mesh, (COLORS, HEAT_COLORS))
     if COLORS_BEFORE not in mesh:
         return
     active, default = list(mesh[COLORS_BEFORE])
@@ -228,6 +241,19 @@ def remove_colors(mesh: bpy.types.Mesh) -> None:
     mesh.attributes.active_color_name = active
     mesh.attributes.default_color_name = default
     mesh.update()
+
+
+def remove_noise(mesh: bpy.types.Mesh) -> None:
+    """Remove the numbers of the noise map."""
+    _remove(mesh, (NOISE, NOISE_WIDTH))
+
+
+def _remove(mesh: bpy.types.Mesh, names: Iterable[str]) -> None:
+    """Remove attributes by name, where they are there."""
+    for name in names:
+        attribute = mesh.attributes.get(name)
+        if attribute is not None:
+            mesh.attributes.remove(attribute)
 
 
 def remove_object_colors(obj: bpy.types.Object) -> None:

@@ -240,6 +240,7 @@ def clear_object(obj: bpy.types.Object) -> None:
         raise ValueError(reason)
     band_storage.remove_bands(obj.data)
     band_storage.remove_colors(obj.data)
+    band_storage.remove_noise(obj.data)
 
 
 def find_note_cells(surface: SurfaceMesh, note: BandNote) -> Cells:

@@ -31,9 +31,8 @@ def chosen_limit(properties: Any, values: Sequence[NDArray[np.floating]], fixed:
         return find_limit(values, share)
     limit = getattr(properties, fixed)
     if not 0.0 <= limit < float("inf"):
-        raise ValueError(
-            f"The range is {limit:g}; it must be {'a length' if fixed == 'limit' else 'an angle'}."
-        )
+        kind = {"limit_angle": "an angle", "limit_edges": "a width"}.get(fixed, "a length")
+        raise ValueError(f"The range is {limit:g}; it must be {kind}.")
     return as_typed(limit)
 
 

@@ -56,13 +56,13 @@ class DenoiseJob:
 
 
 class MeasuredReport(NamedTuple):
-    """A report, whose lengths are in object space, how far vertices moved and the noise in scene units."""
+    """A report, whose lengths are in object space, and how far vertices moved in scene units."""
 
     report: DenoiseReport
     scene_rms: float
     scene_max: float
-    scene_sigma: float
-    """Measured noise in scene units; 0 if it was not measured."""
+    scale: float = 1.0
+    """Scene units for a length of 1, of no particular direction, in object space."""
 
 
 class DenoiseOutcome(NamedTuple):
@@ -120,12 +120,11 @@ def _measured(job: DenoiseJob, result: DenoiseResult) -> MeasuredReport:
     """Return the report of a job with lengths in scene units."""
     import numpy as np
 
-    report, noise = result.report, result.report.noise
+    report = result.report
     if np.array_equal(job.linear, np.eye(3)):
         rms, maximum = report.displacement_rms, report.displacement_max
     else:
         rms, maximum = displacement_by(
             job.linear, job.surface.vertices, result.vertices, job.settings.threads
         )
-    sigma = 0.0 if noise is None else length_by(job.linear, noise.sigma)
-    return MeasuredReport(report, rms, maximum, sigma)
+    return MeasuredReport(report, rms, maximum, length_by(job.linear, 1.0))

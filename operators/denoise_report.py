@@ -11,7 +11,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from .filled_reports import fill_estimate_of_run, fill_report
 from .heat_map import refresh_heat
 from .output import select_instead
-from .scene_units import length_text, noise_text
+from .scene_units import LEAST_WIDTH, length_text, noise_text, range_text
 from .targets import names_text
 
 if TYPE_CHECKING:
@@ -52,14 +52,30 @@ def report_written(
 
 
 def _noise_words(scene: bpy.types.Scene, report: FrameletReport) -> str:
-    """Say which noise was measured and what was made of it; nothing if it was not measured."""
+    """Say which noise was measured or taken away; nothing if it is not known."""
+    if report.has_belief:
+        return _belief_words(scene, report)
     if not report.has_noise:
         return ""
-    from ..core.automatic.filter import CLEAN  # and NumPy, which enabling the extension must not import
-
     noise = noise_text(scene, report.noise_sigma, report.noise_sigma_edges, report.is_impulsive)
-    taken = report.recipe or report.parameters
     words = rpt_("; noise {noise}").format(noise=noise)
-    if taken == CLEAN:
-        return words + rpt_("; clean already")
-    return words + (rpt_("; used {what}").format(what=taken) if taken else "")
+    return words + (rpt_("; used {what}").format(what=report.parameters) if report.parameters else "")
+
+
+def _belief_words(scene: bpy.types.Scene, report: FrameletReport) -> str:
+    """Say what automatic denoising took for noise."""
+    if report.is_off:
+        return rpt_("; Strength is 0")
+    if report.is_clean:
+        return rpt_("; clean already")
+    words = rpt_("; noise {lengths} ({edges} edge lengths)").format(
+        lengths=range_text(report.sigma_low, report.sigma_high, scene),
+        edges=range_text(report.sigma_low_edges, report.sigma_high_edges),
+    )
+    if report.width > LEAST_WIDTH:
+        words += rpt_(", about {width:.1f} edges wide").format(width=report.width)
+    if report.spikes:
+        words += rpt_(", {share:.2g} % spikes").format(share=report.spikes)
+    if report.clean:
+        words += rpt_("; {share:.3g} % was clean and stayed").format(share=report.clean)
+    return words

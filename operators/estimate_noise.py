@@ -18,10 +18,10 @@ if TYPE_CHECKING:
 
 
 class MeasuredNoise(NamedTuple):
-    """The noise of an object, whose lengths are in object space, and its sigma in scene units."""
+    """The noise of an object, whose lengths are in object space, and the scale that makes scene units."""
 
     noise: NoiseEstimate
-    scene_sigma: float
+    scale: float
 
 
 def estimate_object_noise(obj: bpy.types.Object) -> MeasuredNoise:
@@ -48,7 +48,7 @@ def estimate_object_noise(obj: bpy.types.Object) -> MeasuredNoise:
             noise = estimate_noise(surface, blocks=blocks)
     except ValueError as error:
         raise ValueError(f"‘{obj.name}’: {error}") from error
-    return MeasuredNoise(noise, length_in_scene(obj, noise.sigma))
+    return MeasuredNoise(noise, length_in_scene(obj, 1.0))
 
 
 class OBJECT_OT_framelet_estimate_noise(bpy.types.Operator):
@@ -76,7 +76,9 @@ class OBJECT_OT_framelet_estimate_noise(bpy.types.Operator):
 def _sentence(scene: bpy.types.Scene, measured: dict[str, MeasuredNoise]) -> str:
     """Say how noisy an object is, or of several the least and the most noisy."""
     texts = {
-        name: noise_text(scene, item.scene_sigma, item.noise.sigma_edges, item.noise.is_impulsive)
+        name: noise_text(
+            scene, item.scale * item.noise.sigma, item.noise.sigma_edges, item.noise.is_impulsive
+        )
         for name, item in measured.items()
     }
     if len(texts) == 1:

@@ -4,10 +4,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from typing import TYPE_CHECKING
 
-from .chosen_values import BETWEEN_LABELS, chosen_texts
+from .report import BeliefMixin
 
 if TYPE_CHECKING:
     from ..core import Comparison, NoiseEstimate
@@ -54,9 +54,7 @@ def fill_report(properties: FrameletReport, measured: Mapping[str, MeasuredRepor
     volumes = [report.volume_change for report in reports if report.volume_change is not None]
     properties.is_closed = len(volumes) == len(reports)
     properties.volume_change = 100.0 * max(volumes, key=abs, default=0.0)
-    properties.recipe = BETWEEN_LABELS.join(
-        dict.fromkeys(report.recipe for report in reports if report.recipe)
-    )
+    _fill_belief(properties, measured.values())
     texts = {_parameters_text(report) for report in reports}
     properties.parameters = texts.pop() if len(texts) == 1 else "Different for each"
     noises = [report.noise for report in reports if report.noise is not None]
@@ -65,7 +63,8 @@ def fill_report(properties: FrameletReport, measured: Mapping[str, MeasuredRepor
         properties.noise_sigma = properties.noise_sigma_edges = 0.0
         properties.is_impulsive = False
         return
-    properties.noise_sigma = _rms([item.scene_sigma for item in measured.values()], counts)
+    sigmas = [item.scale * noise.sigma for item, noise in zip(measured.values(), noises, strict=True)]
+    properties.noise_sigma = _rms(sigmas, counts)
     properties.noise_sigma_edges = _rms([noise.sigma_edges for noise in noises], counts)
     properties.is_impulsive = any(noise.is_impulsive for noise in noises)
 
@@ -74,7 +73,7 @@ def fill_estimate(properties: FrameletEstimate, measured: Mapping[str, MeasuredN
     """Take over the noise of objects, by name; what was known before is dropped."""
     properties.objects.clear()
     for name, item in measured.items():
-        _add_noise(properties, name, item.noise, item.scene_sigma)
+        _add_noise(properties, name, item.noise, item.scale)
 
 
 def fill_estimate_of_run(properties: FrameletEstimate, measured: Mapping[str, MeasuredReport]) -> None:
@@ -85,10 +84,12 @@ def fill_estimate_of_run(properties: FrameletEstimate, measured: Mapping[str, Me
     for name, item in measured.items():
         noise = item.report.noise
         if noise is not None:
-            entry = _add_noise(properties, name, noise, item.scene_sigma)
-            entry.is_denoised, entry.recipe = True, item.report.recipe
-            for field, text in chosen_texts(item.report).items():
-                setattr(entry, field, text)
+            entry = _add_noise(properties, name, noise, item.scale)
+            entry.is_denoised = True
+            _fill_belief(entry, [item])
+            if _takes_parameters(item.report):
+                settings = item.report.settings
+                entry.chosen_lambda, entry.chosen_mu = f"{settings.lambda_:.3g}", f"{settings.mu:.3g}"
 
 
 def forget_estimate(properties: FrameletEstimate, names: Iterable[str]) -> None:
@@ -116,30 +117,62 @@ def fill_band_range(
     *,
     is_signed: bool,
     quantity: str = "",
-    is_angle: bool = False,
+    unit: str = "LENGTH",
 ) -> None:
     """Take over what colors mean; `quantity` is that of a heat map."""
     properties.names, properties.title, properties.is_signed = ", ".join(names), title, is_signed
-    properties.quantity, properties.is_angle = quantity, is_angle
+    properties.quantity, properties.unit = quantity, unit
     properties.minimum = -found.limit if is_signed else 0.0
     properties.maximum, properties.largest = found.limit, found.largest
     properties.share = 100.0 * found.share
 
 
+def _fill_belief(properties: BeliefMixin, measured: Collection[MeasuredReport]) -> None:
+    """Take over what runs took for noise; empty it if they were none of automatic denoising."""
+    from ..core import NoiseBelief
+
+    for name in BeliefMixin.__annotations__:
+        properties.property_unset(name)
+    reports = [item.report for item in measured]
+    beliefs = [report.noise for report in reports if isinstance(report.noise, NoiseBelief)]
+    if len(beliefs) != len(reports):
+        return
+    properties.has_belief = True
+    properties.is_off = all(report.settings.strength == 0.0 for report in reports)
+    properties.is_clean = all(belief.is_clean for belief in beliefs) and not properties.is_off
+    counts = [report.n_vertices for report in reports]
+    for name in ("spikes", "clean"):
+        shares = [count * getattr(belief, name) for count, belief in zip(counts, beliefs, strict=True)]
+        setattr(properties, name, 100.0 * sum(shares) / sum(counts))
+    noisy = [item for item in measured if item.report.noise.sigma_high > 0.0]
+    for name, extreme in (("sigma_low", min), ("sigma_high", max)):
+        found = [(getattr(item.report.noise, name), item) for item in noisy]
+        lengths = [item.scale * sigma for sigma, item in found]
+        edges = [sigma / item.report.mean_edge_length for sigma, item in found]
+        setattr(properties, name, extreme(lengths, default=0.0))
+        setattr(properties, f"{name}_edges", extreme(edges, default=0.0))
+    properties.width = max(belief.width for belief in beliefs)
+
+
 def _add_noise(
-    properties: FrameletEstimate, name: str, noise: NoiseEstimate, scene_sigma: float
+    properties: FrameletEstimate, name: str, noise: NoiseEstimate, scale: float
 ) -> FrameletNoise:
-    """Add the noise of an object."""
+    """Add the noise of an object; `scale` is that of lengths in scene units."""
     entry = properties.objects.add()
-    entry.name, entry.sigma, entry.sigma_edges = name, scene_sigma, noise.sigma_edges
+    entry.name, entry.sigma, entry.sigma_edges = name, scale * noise.sigma, noise.sigma_edges
     entry.is_impulsive = noise.is_impulsive
     return entry
+
+
+def _takes_parameters(report: DenoiseReport) -> bool:
+    """Tell whether a run took λ and μ from the noise."""
+    return report.noise is not None and report.settings.method == "POSITIONS"
 
 
 def _parameters_text(report: DenoiseReport) -> str:
     """Return the parameters that a run took from the noise, besides its iterations; empty if it took none."""
     settings = report.settings
-    if report.noise is None or settings.method != "POSITIONS":
+    if not _takes_parameters(report):
         return ""
     return f"λ {settings.lambda_:.3g}, μ {settings.mu:.3g}"
 

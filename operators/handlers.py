@@ -11,6 +11,7 @@ from . import current_preview, kept_original
 from .current_run import current_run, drop_current, stop_current, touch_current
 from .preparations import forget_preparations
 from .run_memory import forget_runs
+from .setting_values import replace_lost
 
 
 @persistent
@@ -37,8 +38,10 @@ def _before_load(*_: object) -> None:
 
 @persistent
 def _after_load(*_: object) -> None:
-    """Put right a file that Blender saved by itself while a preview was on."""
+    """Put right a file that Blender saved by itself while a preview was on, or that is of another version."""
     kept_original.put_all_back()
+    for scene in bpy.data.scenes:
+        replace_lost(scene.framelet)
 
 
 @persistent

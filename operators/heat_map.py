@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The operators that show what the last run changed as colors, and take colors away."""
+"""The operators that show as colors what the last run changed or took for noise, and take colors away."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from . import band_storage, run_memory, targets
 from .coloring import chosen_limit, color_objects
 from .filled_reports import fill_band_range
-from .heat_settings import HeatMixin, shown_heat_names
+from .heat_settings import LIMITS, HeatMixin, shown_heat_names
 from .heat_values import QUANTITIES, heat_values
 from .scene_units import value_texts
 from .viewport import hide_unused_colors, show_vertex_colors
@@ -27,7 +27,10 @@ if TYPE_CHECKING:
 def show_heat(
     context: bpy.types.Context, found: dict[str, BandValues], quantity: str, limit: float
 ) -> ColorRange:
-    """Color the objects of values, by object name, and take down what the colors mean."""
+    """Color the objects of values, by object name, and take down what the colors mean.
+
+    Quantities that have an attribute of their own are written there too.
+    """
     kind = QUANTITIES[quantity]
     colored = color_objects(
         list(found.values()), kind.is_signed, limit, band_storage.HEAT_COLORS, kind.domain
@@ -39,8 +42,11 @@ def show_heat(
         colored,
         is_signed=kind.is_signed,
         quantity=quantity,
-        is_angle=kind.is_angle,
+        unit=kind.unit,
     )
+    if kind.attribute:
+        for obj, values in found.values():
+            band_storage.write_numbers(obj.data, kind.attribute, values)
     return colored
 
 
@@ -65,14 +71,13 @@ def refresh_heat(context: bpy.types.Context, objects: Iterable[bpy.types.Object]
 def _heat_limit(properties: Any, found: dict[str, BandValues], quantity: str) -> float:
     """Return the value of the last color; raise ValueError if it was given as something else."""
     values = [item.values for item in found.values()]
-    if not QUANTITIES[quantity].is_angle:
-        return chosen_limit(properties, values)
-    limit = chosen_limit(properties, values, "limit_angle")
-    return degrees(limit) if properties.range_rule == "FIXED" else limit
+    unit = QUANTITIES[quantity].unit
+    limit = chosen_limit(properties, values, LIMITS[unit])
+    return degrees(limit) if unit == "ANGLE" and properties.range_rule == "FIXED" else limit
 
 
 class OBJECT_OT_framelet_heat_map(HeatMixin, bpy.types.Operator):
-    """Show as colors how far the last run moved the selected meshes, or how much it turned their faces"""
+    """Show as colors how the last run moved the selected meshes and their faces, or which noise it removed"""
 
     bl_idname = "object.framelet_heat_map"
     bl_label = "Heat Map"
@@ -108,7 +113,7 @@ class OBJECT_OT_framelet_heat_map(HeatMixin, bpy.types.Operator):
         found = show_heat(context, done, self.quantity, limit)
         show_vertex_colors(context)
         shown = context.window_manager.framelet_band_range
-        lowest, highest = value_texts(context.scene, [shown.minimum, limit], kind.is_angle)
+        lowest, highest = value_texts(context.scene, [shown.minimum, limit], kind.unit)
         self.report(
             {"INFO"},
             rpt_(

@@ -12,8 +12,12 @@ import bpy
 from bpy.props import EnumProperty, FloatProperty
 
 from .band_settings import RangeMixin
+from .band_storage import NOISE, NOISE_WIDTH
+from .heat_values import QUANTITIES
 
-HEAT_NAMES = ("range_rule", "percentile", "limit", "limit_angle")
+HEAT_NAMES = ("range_rule", "percentile", "limit", "limit_angle", "limit_edges")
+LIMITS = {"LENGTH": "limit", "ANGLE": "limit_angle", "EDGES": "limit_edges"}
+"""The properties that hold a limit of one's own, by unit."""
 
 
 class HeatMixin(RangeMixin):
@@ -30,6 +34,17 @@ class HeatMixin(RangeMixin):
             ),
             ("LENGTH", "Displacement", "How far each vertex moved, whatever the direction"),
             ("ANGLE", "Angle Change", "By how many degrees each face turned"),
+            (
+                "NOISE",
+                "Noise",
+                f"How strong the noise is that was removed, also as the attribute {NOISE}, for nodes and masks",
+            ),
+            (
+                "WIDTH",
+                "Noise Width",
+                f"How many edges wide that noise is, also as the attribute {NOISE_WIDTH}; 0 if it is different "
+                "at each vertex",
+            ),
         ],
         options=set(),
     )
@@ -42,17 +57,21 @@ class HeatMixin(RangeMixin):
         subtype="ANGLE",
         options=set(),
     )
+    limit_edges: FloatProperty(
+        name="Limit",
+        description="The width that gets the last color, in edge lengths: larger makes all colors paler",
+        default=4.0,
+        min=0.001,
+        soft_max=20.0,
+        precision=2,
+        options=set(),
+    )
 
 
 def shown_heat_names(properties: Any, quantity: str) -> tuple[str, ...]:
     """Return the names of a `HeatMixin` that count with its present range and a quantity."""
-    is_fixed, is_angle = properties.range_rule == "FIXED", quantity == "ANGLE"
-    counts = {
-        "percentile": properties.range_rule == "PERCENTILE",
-        "limit": is_fixed and not is_angle,
-        "limit_angle": is_fixed and is_angle,
-    }
-    return tuple(name for name in HEAT_NAMES if counts.get(name, True))
+    more = {"PERCENTILE": "percentile", "FIXED": LIMITS[QUANTITIES[quantity].unit]}
+    return tuple(name for name in HEAT_NAMES if name in ("range_rule", more.get(properties.range_rule)))
 
 
 class FrameletHeatMap(HeatMixin, bpy.types.PropertyGroup):

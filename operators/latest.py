@@ -12,7 +12,7 @@ from typing import Generic, NamedTuple, TypeVar
 Request = TypeVar("Request")
 Result = TypeVar("Result")
 
-PATIENCE = 0.3
+PATIENCE = 0.5
 """Seconds that a computation may take although a newer request waits. One that is quicker is finished and
 shown, as otherwise nothing would be shown while a slider moves; one that is slower is stopped."""
 

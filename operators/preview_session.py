@@ -18,7 +18,6 @@ from .denoise_run import Written
 from .latest import Latest
 from .output import refusal
 from .output_choices import IN_PLACE
-from .preview_drafts import StrengthDrafts
 from .run_guard import find_mesh, find_object, mark_of, what_changed
 
 if TYPE_CHECKING:
@@ -64,7 +63,6 @@ class PreviewSession:
         self._outcome: tuple[DenoiseJob, DenoiseOutcome] | None = None
         self._is_touched = self._is_any_touched = self._is_suspended = False
         self._is_allowed = True
-        self._drafts = StrengthDrafts()
         kept_original.keep(obj.data, self._original)
         self._latest: Latest[DenoiseJob, DenoiseOutcome] = Latest(_compute)
 
@@ -129,9 +127,6 @@ class PreviewSession:
         if self._wanted is None or settings != self._wanted.settings:
             self._wanted = replace(self._job, settings=settings)
             self._latest.request(self._wanted)
-            draft = self._drafts.draft(self._wanted)
-            if draft is not None:
-                self._show(draft)
         if answer is not None and answer.request.region is self._job.region:
             self._take(answer.request, answer.result, answer.error)
         return True
@@ -256,11 +251,7 @@ class PreviewSession:
         if error is None and outcome is not None:
             self.message = ""
             self._outcome = job, outcome
-            positions = mesh_bridge.with_moved(self._job.surface, outcome.vertices)
-            self._drafts.note(job, positions)
-            # An answer to an earlier request is farther off than a draft for the last one.
-            draft = None if job is self._wanted or self._wanted is None else self._drafts.draft(self._wanted)
-            self._show(positions if draft is None else draft)
+            self._show(mesh_bridge.with_moved(self._job.surface, outcome.vertices))
             return
         if not isinstance(error, ValueError):
             traceback.print_exception(error)

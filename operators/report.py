@@ -23,14 +23,19 @@ def _edges(name: str, description: str) -> Any:
 
 def _value(name: str, description: str) -> Any:
     """Return the property of a number that colors stand for."""
-    more = "in scene units, or in degrees for angles"
+    more = "in scene units, degrees or edge lengths"
     return FloatProperty(name=name, description=f"{description}, {more}", precision=5)
 
 
+def _share(name: str, description: str) -> Any:
+    """Return the property of a share, in percent."""
+    return FloatProperty(name=name, description=description, subtype="PERCENTAGE")
+
+
 def _chosen(name: str) -> Any:
-    """Return the property of a setting that a run chose, in words."""
+    """Return the property of a setting that a run took from the noise, in words."""
     return StringProperty(
-        name=name, description="What the last run chose for this object; empty if it chose nothing"
+        name=name, description="What the last run took from the noise of this object; empty if it took nothing"
     )
 
 
@@ -38,7 +43,30 @@ _SIGMA = "Standard deviation of the noise along the normals, in"
 _IMPULSIVE = "Some vertices are displaced much more than others; the noise is that of the quieter ones"
 
 
-class FrameletNoise(bpy.types.PropertyGroup):
+_QUIETEST = "Strength of the noise in its quietest tenth of the surface, in"
+_STRONGEST = "Strength of the noise in its strongest tenth of the surface, in"
+
+
+class BeliefMixin:
+    """What automatic denoising took for noise; of several objects the extremes, and shares of all vertices."""
+
+    has_belief: BoolProperty(
+        name="Removed", description="The noise is what automatic denoising took away, not an estimate"
+    )
+    is_off: BoolProperty(name="Off", description="Strength was 0, so that nothing moved")
+    is_clean: BoolProperty(name="Clean Already", description="There was no noise, and nothing moved")
+    sigma_low: _length("Quietest", f"{_QUIETEST} scene units")
+    sigma_high: _length("Strongest", f"{_STRONGEST} scene units")
+    sigma_low_edges: _edges("Quietest in Edge Lengths", f"{_QUIETEST} mean edge lengths")
+    sigma_high_edges: _edges("Strongest in Edge Lengths", f"{_STRONGEST} mean edge lengths")
+    width: _edges(
+        "Width", "Standard deviation of what smoothed the noise, in edge lengths; 0 if nothing did"
+    )
+    spikes: _share("Spikes", "Share of the vertices that were far off alone")
+    clean: _share("Clean", "Share of the vertices that were clean, and stayed")
+
+
+class FrameletNoise(BeliefMixin, bpy.types.PropertyGroup):
     """The noise of one object as it was measured last; its `name` is the object's."""
 
     sigma: _length("Noise", f"{_SIGMA} scene units")
@@ -47,12 +75,6 @@ class FrameletNoise(bpy.types.PropertyGroup):
     is_denoised: BoolProperty(
         name="Denoised", description="The noise is that before the last run, which removed it"
     )
-    recipe: StringProperty(
-        name="Recipe", description="What automatic denoising chose; empty if it did not run"
-    )
-    chosen_recipe: _chosen("Chosen")
-    chosen_frame: _chosen("Frame")
-    chosen_levels: _chosen("Levels")
     chosen_lambda: _chosen("Smoothing λ")
     chosen_mu: _chosen("Penalty μ")
 
@@ -63,7 +85,7 @@ class FrameletEstimate(bpy.types.PropertyGroup):
     objects: CollectionProperty(type=FrameletNoise, name="Objects", description="The noise by object")
 
 
-class FrameletReport(bpy.types.PropertyGroup):
+class FrameletReport(BeliefMixin, bpy.types.PropertyGroup):
     """The last denoising run, all of its objects taken together."""
 
     names: StringProperty(name="Objects", description="The objects that were denoised, separated by commas")
@@ -115,9 +137,6 @@ class FrameletReport(bpy.types.PropertyGroup):
     noise_sigma: _length("Noise", f"{_SIGMA} scene units, root mean square over all vertices")
     noise_sigma_edges: _edges("In Edge Lengths", f"{_SIGMA} mean edge lengths")
     is_impulsive: BoolProperty(name="Impulsive", description=f"Of any object: {_IMPULSIVE.lower()}")
-    recipe: StringProperty(
-        name="Recipe", description="What automatic denoising chose, separated by semicolons if objects differ"
-    )
     parameters: StringProperty(
         name="Parameters", description="What was taken from the measured noise; empty if nothing was"
     )
@@ -145,13 +164,17 @@ class FrameletComparison(bpy.types.PropertyGroup):
 
 
 class FrameletBandRange(bpy.types.PropertyGroup):
-    """What the colors of a band or a heat map mean."""
+    """What the colors of a band or a heat map mean; `unit` is LENGTH, ANGLE or EDGES."""
 
     names: StringProperty(name="Objects", description="The objects that are colored; empty if there are none")
     title: StringProperty(name="Band", description="What is shown")
     quantity: StringProperty(name="Quantity", description="What a heat map shows; empty for bands")
     is_signed: BoolProperty(name="Signed", description="Values are components along the normals")
-    is_angle: BoolProperty(name="Angle", description="Values are angles in degrees instead of lengths")
+    unit: StringProperty(
+        name="Unit",
+        description="LENGTH in scene units, ANGLE in degrees, or EDGES in mean edge lengths",
+        default="LENGTH",
+    )
     minimum: _value("Minimum", "The value with the first color")
     maximum: _value("Maximum", "The value with the last color")
     largest: _value("Largest", "Largest magnitude of all values")

@@ -17,6 +17,10 @@ if TYPE_CHECKING:
     from ..core import SurfaceMesh
 
 
+LEAST_WIDTH = 0.4
+"""Width of noise in edges up to which nothing is said of it: it is next to white."""
+
+
 def linear_part(obj: bpy.types.Object) -> NDArray[np.float64]:
     """Return the rotation and scale of an object, shape (3, 3); it is applied to rows as `rows @ part.T`."""
     import numpy as np
@@ -131,14 +135,27 @@ def length_text(scene: bpy.types.Scene, length: float) -> str:
     )
 
 
-def value_texts(scene: bpy.types.Scene, values: Sequence[float], is_angle: bool) -> list[str]:
-    """Return lengths with their signs in words, all in the unit of the largest, or angles in degrees."""
-    unit, size = "°" if is_angle else "", 1.0
-    largest = max(map(abs, values))
-    if not is_angle:
-        unit, size = _unit_of(scene, largest)
+def range_text(low: float, high: float, scene: bpy.types.Scene | None = None) -> str:
+    """Return two numbers in words, as lengths of a scene if there is one; one if they are next to equal."""
+    from bpy.app.translations import pgettext_rpt as rpt_
+
+    unit, size = ("", 1.0) if scene is None else _unit_of(scene, high)
+    texts = [f"{value / size:.2g}" for value in (low, high)]
+    if texts[0] == texts[1]:
+        return texts[0] + unit
+    return rpt_("{low} to {high}").format(low=texts[0], high=texts[1]) + unit
+
+
+def value_texts(scene: bpy.types.Scene, values: Sequence[float], unit: str = "LENGTH") -> list[str]:
+    """Return values with their signs in words.
+
+    LENGTH are all in the unit of the largest, ANGLE in degrees, and EDGES in mean edge lengths.
+    """
+    sign, size = {"ANGLE": "°"}.get(unit, ""), 1.0
+    if unit == "LENGTH":
+        sign, size = _unit_of(scene, max(map(abs, values)))
     # A true minus sign, as wide as a plus; and no zero has one.
-    return [f"{'−' if value < 0.0 else ''}{abs(value) / size:.4g}{unit}" for value in values]
+    return [f"{'−' if value < 0.0 else ''}{abs(value) / size:.4g}{sign}" for value in values]
 
 
 def _unit_of(scene: bpy.types.Scene, length: float) -> tuple[str, float]:

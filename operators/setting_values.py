@@ -90,6 +90,13 @@ def to_settings(properties: Any) -> DenoiseSettings:
     return base.with_changes(**changes)
 
 
+def replace_lost(properties: Any) -> None:
+    """Take the default engine where a file names one that is gone, with the values of the preset."""
+    if not properties.method:
+        preset = properties.preset if properties.preset != CUSTOM else DEFAULT_PRESET
+        fill(properties, PRESETS[preset].settings, keep=("threads",))
+
+
 def copy_settings(source: Any, target: Any) -> None:
     """Copy all properties of scene settings to an operator, so that the operator needs nothing else."""
     copy_values(source, target, ("preset", "output", *REGION_NAMES))

@@ -36,7 +36,7 @@ _NUMBERED = {
     "method": ("POSITIONS", "NORMALS", "BILATERAL", "AUTO"),
 }
 """Lists whose items are shown in another order than they came in. Files hold the numbers of items, so that
-new ones go to the end here."""
+new ones go to the end here, and those that are gone keep their place."""
 
 
 def _items(name: str, choices: Iterable[tuple[str, str, str]]) -> list[tuple[str, str, str, int]]:

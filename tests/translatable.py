@@ -7,11 +7,7 @@ from pathlib import Path
 
 import bpy
 import framelet.ui
-from framelet.core.automatic.filter import CLEAN
-from framelet.core.automatic.finish import FINISHES
-from framelet.core.automatic.recipes import RECIPES
 from framelet.operators import registration
-from framelet.operators.chosen_values import recipe_lines
 
 ROOT = Path(__file__).resolve().parents[1]
 MARKERS = ("n_", "rpt_", "iface_", "tip_")
@@ -30,9 +26,6 @@ def messages():
     for folder in ("operators", "ui"):
         for path in sorted((ROOT / folder).glob("*.py")):
             found |= _of_source(path)
-    found |= {("*", recipe.label) for recipe in RECIPES} | {("*", CLEAN)}
-    found |= {("*", words) for finish in FINISHES for words in finish.label.split(", ")}
-    found |= {("*", line) for recipe in RECIPES for line in recipe_lines(recipe.label).splitlines()}
     # A name may be empty, and what has no letters is the same in every language.
     return {(context, text) for context, text in found if any(map(str.isalpha, text))}
 

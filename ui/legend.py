@@ -56,7 +56,7 @@ def is_wanted(context: bpy.types.Context) -> bool:
 def legend_texts(scene: bpy.types.Scene, shown: bpy.types.PropertyGroup) -> tuple[str, list[str], str]:
     """Return the title, the labels from the lowest value up, and the note of the legend."""
     values = tick_values(shown.minimum, shown.maximum, shown.is_signed)
-    labels = value_texts(scene, values, shown.is_angle)
+    labels = value_texts(scene, values, shown.unit)
     note = "" if shown.share >= 99.95 else iface_("{:.1f} % within").format(shown.share)
     return iface_(shown.title), labels, note
 

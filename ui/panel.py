@@ -23,9 +23,6 @@ MAIN_NAMES = (
     "levels",
     "lambda_",
     "mu",
-    "normal_threshold",
-    "sigma_n",
-    "average_steps",
     "sigma_c",
     "sigma_s",
 )
@@ -35,19 +32,11 @@ ADVANCED_NAMES = (
     "delta",
     "iterations",
     "tolerance",
-    "sharpness",
     "passes",
-    "vertex_steps",
     "threads",
 )
-CHOSEN = (
-    (n_("Chosen"), "chosen_recipe"),
-    (n_("Frame"), "chosen_frame"),
-    (n_("Levels"), "chosen_levels"),
-    (n_("Smoothing λ"), "chosen_lambda"),
-    (n_("Penalty μ"), "chosen_mu"),
-)
-"""What a run chose for an object: labels, and properties of `FrameletNoise`."""
+CHOSEN = ((n_("Smoothing λ"), "chosen_lambda"), (n_("Penalty μ"), "chosen_mu"))
+"""What a run took from the noise of an object: labels, and properties of `FrameletNoise`."""
 
 UNKNOWN = "–"
 
@@ -62,7 +51,7 @@ class VIEW3D_PT_framelet(FrameletPanel, bpy.types.Panel):
         VIEW3D_PT_framelet_presets.draw_panel_header(self.layout)
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw the button, engine and preset, the strength, and the settings that matter most."""
+        """Draw the button, engine and preset, strength and noise, and the settings that matter most."""
         layout = self.layout
         settings = context.scene.framelet
         row = layout.row()
@@ -71,16 +60,13 @@ class VIEW3D_PT_framelet(FrameletPanel, bpy.types.Panel):
         draw_progress(layout)
         draw_preview(layout)
         column = settings_column(layout)
-        for name in ("preset", "method", "strength"):
+        for name in ("preset", "method", "strength", "noise"):
             if has_effect(settings.method, name):
                 column.prop(settings, name)
         layout.separator()
-        if settings.method == "AUTO":
-            _draw_chosen(layout, context)
-            return
         draw_settings(layout, settings, MAIN_NAMES, context.active_object)
         if is_replaced(settings.method, settings.tuning, "lambda_"):
-            _draw_chosen(layout, context, CHOSEN[3:])
+            _draw_chosen(layout, context)
 
 
 class VIEW3D_PT_framelet_advanced(FrameletPanel, bpy.types.Panel):
@@ -100,16 +86,11 @@ class VIEW3D_PT_framelet_advanced(FrameletPanel, bpy.types.Panel):
                 self.layout.label(text=line, icon="INFO")
 
 
-def _draw_chosen(
-    layout: bpy.types.UILayout, context: bpy.types.Context, chosen: tuple[tuple[str, str], ...] = CHOSEN
-) -> None:
-    """Draw, grayed, what the last run chose for the active object."""
+def _draw_chosen(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
+    """Draw, grayed, what the last run took from the noise of the active object."""
     obj = context.active_object
     entry = obj and context.window_manager.framelet_estimate.objects.get(obj.name)
     column = layout.column(align=True)
     column.active = False
-    for label, name in chosen:
-        text = getattr(entry, name) if entry and entry.is_denoised else ""
-        for line in (text or (n_("At the next run") if label == "Chosen" else UNKNOWN)).splitlines():
-            draw_value(column, label, line)
-            label = ""
+    for label, name in CHOSEN:
+        draw_value(column, label, (getattr(entry, name) if entry else "") or UNKNOWN)

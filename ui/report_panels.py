@@ -9,9 +9,9 @@ from bpy.app.translations import pgettext_iface as iface_
 from bpy.app.translations import pgettext_n as n_
 
 from ..operators.add_noise import OBJECT_OT_framelet_add_noise
-from ..operators.chosen_values import BETWEEN_LABELS, chosen_lines
 from ..operators.compare import OBJECT_OT_framelet_compare
 from ..operators.estimate_noise import OBJECT_OT_framelet_estimate_noise
+from ..operators.scene_units import LEAST_WIDTH, range_text
 from .layouts import FrameletPanel, draw_lengths, draw_value
 from .region_panel import draw_repairs
 
@@ -47,27 +47,34 @@ class VIEW3D_PT_framelet_last_run(FrameletPanel, bpy.types.Panel):
         ):
             if getattr(report, name):
                 draw_value(column, label, f"{getattr(report, name):,}")
-        if report.has_noise:
+        if report.has_belief:
+            draw_belief(column, context.scene, n_("Noise"), report)
+        elif report.has_noise:
             draw_lengths(column, context.scene, "Noise", report.noise_sigma, report.noise_sigma_edges)
             if report.is_impulsive:
                 draw_value(column, "", "Impulsive")
-        label = n_("Chosen")
-        for line in _chosen_lines(context, report):
-            draw_value(column, label, line)
-            label = ""
         if report.parameters:
             draw_value(column, n_("From Noise"), report.parameters)
-        draw_value(column, "Iterations", str(report.iterations))
+        draw_value(column, "Passes" if report.has_belief else "Iterations", str(report.iterations))
         draw_value(column, "Time", f"{report.seconds:.2f} s")
 
 
-def _chosen_lines(context: bpy.types.Context, report: bpy.types.PropertyGroup) -> list[str]:
-    """Return what automatic denoising chose as lines that fit into the sidebar; none if it did not run."""
-    entry = context.window_manager.framelet_estimate.objects.get(report.names)
-    if report.recipe and entry and entry.is_denoised:
-        return entry.chosen_recipe.splitlines()
-    labels = report.recipe.split(BETWEEN_LABELS) if report.recipe else []
-    return [line for label in labels for line in chosen_lines(label)]
+def draw_belief(
+    column: bpy.types.UILayout, scene: bpy.types.Scene, label: str, found: bpy.types.PropertyGroup
+) -> None:
+    """Draw, as lines of a table, what automatic denoising took for noise; `found` has a `BeliefMixin`."""
+    if found.is_off or found.is_clean:
+        draw_value(column, label, n_("Strength is 0") if found.is_off else n_("Clean already"))
+        return
+    draw_value(column, label, range_text(found.sigma_low, found.sigma_high, scene))
+    edges = range_text(found.sigma_low_edges, found.sigma_high_edges)
+    draw_value(column, "", iface_("{range} edges").format(range=edges))
+    if found.width > LEAST_WIDTH:
+        draw_value(column, "Width", iface_("about {:.1f} edges").format(found.width))
+    if found.spikes:
+        draw_value(column, "Spikes", f"{found.spikes:.2g} %")
+    if found.clean:
+        draw_value(column, "Clean", iface_("{:.3g} % stayed").format(found.clean))
 
 
 class VIEW3D_PT_framelet_noise(FrameletPanel, bpy.types.Panel):
@@ -86,6 +93,9 @@ class VIEW3D_PT_framelet_noise(FrameletPanel, bpy.types.Panel):
             return
         column = self.layout.column(align=True)
         label = n_("Noise Before") if entry.is_denoised else n_("Noise")
+        if entry.has_belief:
+            draw_belief(column, context.scene, label, entry)
+            return
         draw_lengths(column, context.scene, label, entry.sigma, entry.sigma_edges)
         if entry.is_impulsive:
             draw_value(column, "", "Impulsive")

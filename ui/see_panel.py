@@ -15,10 +15,16 @@ from ..operators.setting_values import copy_values, write_quietly
 from .layouts import FrameletPanel, settings_column
 
 BUTTONS = (
-    ("NORMAL", n_("Heat Map", "Operator"), "COLOR"),
-    ("ANGLE", n_("Angle Change", "Operator"), "DRIVER_ROTATIONAL_DIFFERENCE"),
+    (
+        ("NORMAL", n_("Heat Map", "Operator"), "COLOR"),
+        ("ANGLE", n_("Angle Change", "Operator"), "DRIVER_ROTATIONAL_DIFFERENCE"),
+    ),
+    (
+        ("NOISE", n_("Noise Map", "Operator"), "RNDCURVE"),
+        ("WIDTH", n_("Noise Width", "Operator"), "ARROW_LEFTRIGHT"),
+    ),
 )
-"""Quantities that have a button of their own, with words and icons."""
+"""Rows of quantities that have a button of their own, with words and icons."""
 
 
 class VIEW3D_PT_framelet_see(FrameletPanel, bpy.types.Panel):
@@ -29,18 +35,20 @@ class VIEW3D_PT_framelet_see(FrameletPanel, bpy.types.Panel):
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw the three buttons, pressed if what they show is shown, and the range of the colors."""
+        """Draw the buttons, pressed if what they show is shown, and the range of the colors."""
         layout, heat = self.layout, context.scene.framelet_heat_map
         layout.operator(OBJECT_OT_framelet_before_after.bl_idname, icon="ARROW_LEFTRIGHT")
         shown = _shown_quantity(context)
-        row = layout.row(align=True)
-        for quantity, text, icon in BUTTONS:
-            if quantity == shown:
-                row.operator(OBJECT_OT_framelet_hide_colors.bl_idname, text=text, icon=icon, depress=True)
-                continue
-            operator = row.operator(OBJECT_OT_framelet_heat_map.bl_idname, text=text, icon=icon)
-            write_quietly(operator, "quantity", quantity)
-            copy_values(heat, operator, HEAT_NAMES)
+        column = layout.column(align=True)
+        for buttons in BUTTONS:
+            row = column.row(align=True)
+            for quantity, text, icon in buttons:
+                if quantity == shown:
+                    row.operator(OBJECT_OT_framelet_hide_colors.bl_idname, text=text, icon=icon, depress=True)
+                    continue
+                operator = row.operator(OBJECT_OT_framelet_heat_map.bl_idname, text=text, icon=icon)
+                write_quietly(operator, "quantity", quantity)
+                copy_values(heat, operator, HEAT_NAMES)
         column = settings_column(layout)
         for name in shown_heat_names(heat, shown or heat.quantity):
             column.prop(heat, name)

@@ -11,11 +11,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-from ..automatic.filter import CLEAN, automatic_filter
 from ..blocks import Blocks, Stopped
 from ..memory import check_memory
+from ..methods.learned_shrinkage import learned_shrinkage
 from ..noise import NoiseEstimate, estimate_noise
-from ..normals.filter import normal_filter
 from ..region.finish import Finished, finish
 from ..region.lines import find_lines, smoothing_of
 from ..region.placed import Placed, place
@@ -142,22 +141,28 @@ def _denoise(
             constraints = constraints.with_pinned(lines.vertices)
             n_line_vertices = len(lines.vertices)
         noise: NoiseEstimate | None = None
-        recipe = ""
         if settings.method == "POSITIONS" and settings.tuning == "NOISE":
             noise = estimate_noise(ordered, connectivity, blocks)
             settings = tuned(settings, choose_frame(settings.frame, connectivity), noise)
         if settings.method == "AUTO":
-            found = automatic_filter(
-                noisy, ordered, connectivity, prepared.edge, settings, constraints, blocks, callback
+            assert prepared.engine is not None
+            found = learned_shrinkage(
+                noisy,
+                ordered,
+                connectivity,
+                prepared.engine,
+                prepared.edge,
+                settings,
+                constraints,
+                blocks,
+                callback,
             )
+            noise = found.belief
             # Of a mesh that is clean already the lines, which were smoothed before, stay as well.
-            points = prepared.noisy if found.recipe == CLEAN else found.points
+            points = prepared.noisy if found.belief.is_clean else found.points
             solved = points, found.iterations, found.is_stopped
-            noise, recipe = found.noise, found.recipe
         elif settings.method == "BILATERAL":
             solved = bilateral_filter(noisy, ordered, connectivity, settings, constraints, blocks, callback)
-        elif settings.method == "NORMALS":
-            solved = normal_filter(noisy, ordered, connectivity, settings, constraints, blocks, callback)
         elif settings.lambda_ == 0.0:
             solved = noisy, settings.iterations, False  # nothing is shrunk, so nothing moves
         else:
@@ -190,7 +195,6 @@ def _denoise(
             began=began,
             settings=settings,
             noise=noise,
-            recipe=recipe,
             line_vertices=n_line_vertices,
             welded_vertices=0 if placed.weld is None else placed.weld.n_merged,
         )

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from ..blocks import Blocks
+from ..learned.engine import FaceEngine
 from ..memory import give_back
 from ..region.face_watch import FaceState
 from ..settings import DEFAULT_PRESET, PRESETS, DenoiseSettings
@@ -55,6 +56,8 @@ class Prepared:
         Corners of borders.
     transform : FrameTransform or None
         The frame, if the method uses one.
+    engine : FaceEngine or None
+        Tables of faces, if the method uses them.
     blocks : Blocks
         Threads to work on, to be entered by each run.
     faces : list of FaceState
@@ -68,6 +71,7 @@ class Prepared:
     noisy: NDArray[np.floating]
     corners: Corners
     transform: FrameTransform | None
+    engine: FaceEngine | None
     blocks: Blocks
     key: tuple[Any, ...]
     faces: list[FaceState] = field(default_factory=list)
@@ -179,7 +183,10 @@ def _prepare(
             connectivity = connect(ordered, blocks, labels)
         edge = check_surface(ordered, blocks, connectivity.edge_face_count)
         normalized = normalize(ordered, connectivity, edge, blocks)
-        transform = None
+        transform = engine = None
+        if settings.method == "AUTO":
+            is_known = previous is not None and previous.engine is not None
+            engine = previous.engine if is_known else FaceEngine(ordered, connectivity, blocks)
         if settings.method == "POSITIONS":
             # Chosen on the normalized surface in full precision, so that rounding decides nothing.
             transform = make_transform(
@@ -201,7 +208,7 @@ def _prepare(
 
         blocks.run(turn, surface.n_vertices)
     return Prepared(
-        surface, reordering, connectivity, edge, noisy, corners, transform, blocks, _key(settings, dtype)
+        surface, reordering, connectivity, edge, noisy, corners, transform, engine, blocks, _key(settings, dtype)
     )
 
 

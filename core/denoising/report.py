@@ -48,9 +48,7 @@ class DenoiseReport:
     settings: DenoiseSettings
     """What was used; λ, μ and iterations are those that were chosen, where they are taken from the noise."""
     noise: NoiseEstimate | None = None
-    """The measured noise, if the method or the parameters needed it."""
-    recipe: str = ""
-    """With the method AUTO, the label of the recipe that was chosen."""
+    """The noise, if it was measured: with the method AUTO a `NoiseBelief`, what was taken for noise."""
     folded_faces: int = 0
     folded_faces_before: int = 0
     """Faces that look against the faces around them, see `FaceWatch`, in the result and in the input."""

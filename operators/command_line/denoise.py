@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from ...core.region_options import RegionOptions
 from ...core.settings import DenoiseSettings
 from ..output_choices import IN_PLACE, OUTPUTS
+from ..scene_units import LEAST_WIDTH
 from .arguments import (
     HelpFormatter,
     add_setting_options,
@@ -29,7 +30,7 @@ from .staging import Staging, check_folder
 if TYPE_CHECKING:
     import bpy
 
-    from ...core import NoiseEstimate
+    from ...core import NoiseBelief, NoiseEstimate
     from ...core.denoising.report import DenoiseReport
     from .importing import Surfaces
     from .mesh_work import Outcome
@@ -160,8 +161,9 @@ def _describe_result(name: str, report: DenoiseReport) -> list[str]:
     edge = report.mean_edge_length or 1.0
     lines = [] if report.noise is None else [_describe_noise(report, report.noise)]
     volume = "" if report.volume_change is None else f"; volume {report.volume_change:+.3%}"
+    rounds = count(report.iterations, "pass" if report.settings.method == "AUTO" else "iteration")
     return [
-        f"Denoised {name} in {report.seconds:.2f} s: {count(report.iterations, 'iteration')}, "
+        f"Denoised {name} in {report.seconds:.2f} s: {rounds}, "
         f"{report.n_moved:,} vertices moved by {report.displacement_rms:.4g} rms and "
         f"{report.displacement_max:.4g} at most ({report.displacement_rms / edge:.3g} and "
         f"{report.displacement_max / edge:.3g} mean edge lengths of {report.mean_edge_length:.4g}).",
@@ -196,16 +198,32 @@ def _describe_region(report: DenoiseReport) -> list[str]:
 
 
 def _describe_noise(report: DenoiseReport, noise: NoiseEstimate) -> str:
-    """Say how strong the noise was, and what was chosen for it."""
+    """Say how strong the noise was, and what was taken from it."""
+    from ...core import NoiseBelief
+
+    if isinstance(noise, NoiseBelief):
+        return f"  {_describe_belief(report, noise)}."
     text = f"  noise of {noise.sigma:.4g} ({noise.sigma_edges:.3g} mean edge lengths)"
     if noise.is_impulsive:
         text += ", impulsive"
-    from ...core.automatic.filter import CLEAN
-
     used = report.settings
-    if report.recipe == CLEAN:
-        return f"{text}; clean already."
-    if report.recipe:
-        return f"{text}; chosen for it: {report.recipe}."
     iterations = count(used.iterations, "iteration")
     return f"{text}; taken from it: λ {used.lambda_:.3g}, μ {used.mu:.3g}, {iterations}."
+
+
+def _describe_belief(report: DenoiseReport, noise: NoiseBelief) -> str:
+    """Say what automatic denoising took for noise."""
+    if report.settings.strength == 0.0:
+        return "strength is 0, so that nothing moves"
+    if noise.is_clean:
+        return "clean already"
+    edge = report.mean_edge_length
+    text = (
+        f"noise of {noise.sigma_low:.3g} to {noise.sigma_high:.3g} "
+        f"({noise.sigma_low / edge:.3g} to {noise.sigma_high / edge:.3g} mean edge lengths)"
+    )
+    if noise.width > LEAST_WIDTH:
+        text += f", about {noise.width:.1f} edges wide"
+    if noise.spikes:
+        text += f", {100.0 * noise.spikes:.2g} % spikes"
+    return text + (f"; {100.0 * noise.clean:.3g} % was clean and stayed" if noise.clean else "")

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from ...core.denoising.report import DenoiseReport
+from ...core.noise.field import NoiseBelief
 from ...core.region_options import RegionOptions
 from ...core.settings import DenoiseSettings
 from .version import blender_version, framelet_version
@@ -44,8 +45,8 @@ def write_report(
     options : RegionOptions
         Where vertices could move and how far; under "region" in the file.
     reports : sequence of (str, DenoiseReport)
-        For each object its name and report, with the settings used, the measured noise and what was chosen
-        for it.
+        For each object its name and report, with the settings used and the noise, as it was measured or taken
+        away.
     skipped : sequence of (str, str)
         For each object that was left as it is its name and the reason.
     """
@@ -57,11 +58,21 @@ def write_report(
         "preset": preset,
         "settings": asdict(settings),
         "region": asdict(options),
-        "objects": [{"name": name, **asdict(report)} for name, report in reports],
+        "objects": [{"name": name, **_entry(report)} for name, report in reports],
         "skipped": [{"name": name, "reason": reason} for name, reason in skipped],
     }
     text = json.dumps(_plain(content), indent=2, ensure_ascii=False, allow_nan=False)
     path.write_text(text + "\n", encoding="utf-8")
+
+
+def _entry(report: DenoiseReport) -> dict[str, Any]:
+    """Return a report, with its noise in edge lengths, too, and whether the mesh was clean."""
+    entry, noise = asdict(report), report.noise
+    if isinstance(noise, NoiseBelief):
+        for name in ("sigma_low", "sigma_high"):
+            entry["noise"][f"{name}_edges"] = getattr(noise, name) / report.mean_edge_length
+        entry["noise"]["is_clean"] = noise.is_clean
+    return entry
 
 
 def _plain(value: Any) -> Any:

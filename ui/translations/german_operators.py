@@ -19,6 +19,8 @@ NAMES = {
     "Heat Map": "Wärmebild",
     "Hide Colors": "Farben ausblenden",
     "Live Preview": "Live-Vorschau",
+    "Noise Map": "Rauschkarte",
+    "Noise Width": "Rauschbreite",
     "Rebuild": "Zusammensetzen",
     "Show Band": "Band zeigen",
 }
@@ -48,8 +50,8 @@ TEXTS = {
     "Rebuild the selected meshes from their stored bands, edited or not": (
         "Die ausgewählten Netze aus ihren gespeicherten Bändern zusammensetzen, ob bearbeitet oder nicht"
     ),
-    "Remove all bands and colors that Framelet stored on the selected meshes": (
-        "Alle Bänder und Farben entfernen, die Framelet an den ausgewählten Netzen gespeichert hat"
+    "Remove all that Framelet stored on the selected meshes: bands, colors, and the noise": (
+        "Alles entfernen, was Framelet an den ausgewählten Netzen gespeichert hat: Bänder, Farben und das Rauschen"
     ),
     "Smooth or exaggerate the details of meshes, scale by scale; in Edit Mode those of selected vertices": (
         "Einzelheiten von Netzen glätten oder übertreiben, Größe für Größe; im Bearbeitungsmodus die der "
@@ -58,8 +60,9 @@ TEXTS = {
     "Move the vertices of the selected meshes to where they were before the last run, or back": (
         "Die Punkte der ausgewählten Netze dorthin bewegen, wo sie vor dem letzten Lauf waren, oder zurück"
     ),
-    "Show as colors how far the last run moved the selected meshes, or how much it turned their faces": (
-        "In Farben zeigen, wie weit der letzte Lauf die ausgewählten Netze bewegt oder ihre Flächen gedreht hat"
+    "Show as colors how the last run moved the selected meshes and their faces, or which noise it removed": (
+        "In Farben zeigen, wie der letzte Lauf die ausgewählten Netze und ihre Flächen bewegte oder welches Rauschen "
+        "er entfernte"
     ),
     "Remove the colors of heat maps and bands from the selected meshes, and show what was shown before": (
         "Die Farben von Wärmebildern und Bändern von den ausgewählten Netzen entfernen und zeigen, was vorher zu "

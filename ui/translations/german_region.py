@@ -127,4 +127,9 @@ TEXTS = {
     "; noise {noise}": "; Rauschen {noise}",
     "; used {what}": "; verwendet: {what}",
     "; clean already": "; schon sauber",
+    "; Strength is 0": "; Stärke ist 0",
+    "; noise {lengths} ({edges} edge lengths)": "; Rauschen {lengths} ({edges} Kantenlängen)",
+    ", about {width:.1f} edges wide": ", etwa {width:.1f} Kanten breit",
+    ", {share:.2g} % spikes": ", {share:.2g} % Ausreißer",
+    "; {share:.3g} % was clean and stayed": "; {share:.3g} % waren sauber und blieben",
 }

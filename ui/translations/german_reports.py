@@ -8,44 +8,48 @@ TEXTS = {
     "Last Run": "Letzter Lauf",
     "Noise": "Rauschen",
     "Try It": "Ausprobieren",
-    # What a run chose
-    "Chosen": "Gewählt",
-    "At the next run": "Beim nächsten Lauf",
-    "What the last run chose for this object; empty if it chose nothing": (
-        "Was der letzte Lauf für dieses Objekt wählte; leer, wenn er nichts wählte"
-    ),
-    "Flat and sharp": "Flach und scharf",
-    "Smooth and even": "Glatt und gleichmäßig",
-    "Sharp and coarse": "Scharf und grob",
-    "Fine relief": "Feines Relief",
-    "after smoothing 4": "nach Glättung 4",
-    "after smoothing 8": "nach Glättung 8",
-    "after smoothing 16": "nach Glättung 16",
-    "Soft relief": "Weiches Relief",
-    "Soft relief after smoothing 8": "Weiches Relief nach Glättung 8",
-    "Soft and coarse 32": "Weich und grob 32",
-    **{f"Crisp edges {n}": f"Klare Kanten {n}" for n in (16, 32)},
-    **{f"Crisp edges {n} after smoothing 4": f"Klare Kanten {n} nach Glättung 4" for n in (16, 32)},
-    "Flat and sharp after smoothing 4": "Flach und scharf nach Glättung 4",
-    "Sharp and coarse after smoothing 4": "Scharf und grob nach Glättung 4",
-    **{f"Smooth and even after smoothing {n}": f"Glatt und gleichmäßig nach Glättung {n}" for n in (4, 16)},
-    **{f"Fine relief after smoothing {n}": f"Feines Relief nach Glättung {n}" for n in (8, 16)},
-    **{f"Smooth and coarse {number}": f"Glatt und grob {number}" for number in (24, 32, 128, 192)},
-    "refined": "verfeinert",
-    "half refined": "halb verfeinert",
-    "refined finely": "fein verfeinert",
-    "half refined finely": "halb fein verfeinert",
-    "refined twice": "zweimal verfeinert",
-    "half refined twice": "halb zweimal verfeinert",
-    "in place": "am Ort",
-    "half in place": "halb am Ort",
+    # What a run took for noise
+    "Strength is 0": "Stärke ist 0",
     "Clean already": "Schon sauber",
-    "Low-pass": "Tiefpass",
-    "Pairwise (normals)": "Paarweise (Normalen)",
-    "Bilateral (normals)": "Bilateral (Normalen)",
-    "Bands (positions)": "Bänder (Positionen)",
-    "{number} averages": "{number} Mittelungen",
-    "{number} × noise": "{number} × Rauschen",
+    "{low} to {high}": "{low} bis {high}",
+    "{range} edges": "{range} Kanten",
+    "Width": "Breite",
+    "about {:.1f} edges": "etwa {:.1f} Kanten",
+    "Spikes": "Ausreißer",
+    "Clean": "Sauber",
+    "{:.3g} % stayed": "{:.3g} % blieben",
+    "Removed": "Entfernt",
+    "The noise is what automatic denoising took away, not an estimate": (
+        "Das Rauschen ist, was das automatische Entrauschen wegnahm, keine Schätzung"
+    ),
+    "Off": "Aus",
+    "Strength was 0, so that nothing moved": "Die Stärke war 0, sodass sich nichts bewegte",
+    "Clean Already": "Schon sauber",
+    "There was no noise, and nothing moved": "Es gab kein Rauschen, und nichts bewegte sich",
+    "Quietest": "Am ruhigsten",
+    "Strongest": "Am stärksten",
+    "Quietest in Edge Lengths": "Am ruhigsten, in Kantenlängen",
+    "Strongest in Edge Lengths": "Am stärksten, in Kantenlängen",
+    "Strength of the noise in its quietest tenth of the surface, in scene units": (
+        "Stärke des Rauschens im ruhigsten Zehntel der Oberfläche, in Einheiten der Szene"
+    ),
+    "Strength of the noise in its strongest tenth of the surface, in scene units": (
+        "Stärke des Rauschens im stärksten Zehntel der Oberfläche, in Einheiten der Szene"
+    ),
+    "Strength of the noise in its quietest tenth of the surface, in mean edge lengths": (
+        "Stärke des Rauschens im ruhigsten Zehntel der Oberfläche, in mittleren Kantenlängen"
+    ),
+    "Strength of the noise in its strongest tenth of the surface, in mean edge lengths": (
+        "Stärke des Rauschens im stärksten Zehntel der Oberfläche, in mittleren Kantenlängen"
+    ),
+    "Standard deviation of what smoothed the noise, in edge lengths; 0 if nothing did": (
+        "Standardabweichung dessen, was das Rauschen glättete, in Kantenlängen; 0, wenn es nichts tat"
+    ),
+    "Share of the vertices that were far off alone": "Anteil der Punkte, die allein weit ab lagen",
+    "Share of the vertices that were clean, and stayed": "Anteil der Punkte, die sauber waren und blieben",
+    "What the last run took from the noise of this object; empty if it took nothing": (
+        "Was der letzte Lauf aus dem Rauschen dieses Objekts nahm; leer, wenn er nichts nahm"
+    ),
     # Tables
     "Nothing was denoised yet": "Noch nichts entrauscht",
     "Object": "Objekt",
@@ -89,13 +93,6 @@ TEXTS = {
     "Denoised": "Entrauscht",
     "The noise is that before the last run, which removed it": (
         "Das Rauschen ist das vor dem letzten Lauf, der es entfernte"
-    ),
-    "Recipe": "Rezept",
-    "What automatic denoising chose; empty if it did not run": (
-        "Was das automatische Entrauschen wählte; leer, wenn es nicht lief"
-    ),
-    "What automatic denoising chose, separated by semicolons if objects differ": (
-        "Was das automatische Entrauschen wählte, durch Semikola getrennt, wenn Objekte sich unterscheiden"
     ),
     "The noise by object": "Das Rauschen je Objekt",
     "The objects that were denoised, separated by commas": "Die entrauschten Objekte, durch Kommas getrennt",
@@ -160,17 +157,19 @@ TEXTS = {
     "What a heat map shows; empty for bands": "Was ein Wärmebild zeigt; leer bei Bändern",
     "Signed": "Mit Vorzeichen",
     "Values are components along the normals": "Werte sind Anteile entlang der Normalen",
-    "Angle": "Winkel",
-    "Values are angles in degrees instead of lengths": "Werte sind Winkel in Grad statt Längen",
+    "Unit": "Einheit",
+    "LENGTH in scene units, ANGLE in degrees, or EDGES in mean edge lengths": (
+        "LENGTH in Einheiten der Szene, ANGLE in Grad oder EDGES in mittleren Kantenlängen"
+    ),
     "Minimum": "Minimum",
-    "The value with the first color, in scene units, or in degrees for angles": (
-        "Der Wert mit der ersten Farbe, in Einheiten der Szene, bei Winkeln in Grad"
+    "The value with the first color, in scene units, degrees or edge lengths": (
+        "Der Wert mit der ersten Farbe, in Einheiten der Szene, Grad oder Kantenlängen"
     ),
-    "The value with the last color, in scene units, or in degrees for angles": (
-        "Der Wert mit der letzten Farbe, in Einheiten der Szene, bei Winkeln in Grad"
+    "The value with the last color, in scene units, degrees or edge lengths": (
+        "Der Wert mit der letzten Farbe, in Einheiten der Szene, Grad oder Kantenlängen"
     ),
-    "Largest magnitude of all values, in scene units, or in degrees for angles": (
-        "Größter Betrag aller Werte, in Einheiten der Szene, bei Winkeln in Grad"
+    "Largest magnitude of all values, in scene units, degrees or edge lengths": (
+        "Größter Betrag aller Werte, in Einheiten der Szene, Grad oder Kantenlängen"
     ),
     "Share of the vertices within the range": "Anteil der Punkte im Bereich",
     "Shading": "Schattierung",

@@ -10,16 +10,16 @@ TEXTS = {
         "Was für ein Netz es ist oder welcher Algorithmus; eine Wahl setzt alle Werte darunter"
     ),
     "Automatic": "Automatisch",
-    "For any noisy mesh: measures the noise and chooses everything else; keeps sharp features": (
-        "Für jedes verrauschte Netz: misst das Rauschen und wählt alles Übrige; erhält scharfe Kanten"
+    "For any noisy mesh: sees how strong the noise is at each place; keeps sharp features": (
+        "Für jedes verrauschte Netz: sieht, wie stark das Rauschen an jeder Stelle ist; erhält scharfe Kanten"
     ),
     "Scan (free-form)": "Scan (Freiform)",
-    "For scans and organic shapes: works on normals, keeps fine relief and soft edges": (
-        "Für Scans und organische Formen: arbeitet an Normalen, erhält feines Relief und weiche Kanten"
+    "For scans and organic shapes: takes noise that is several edges wide for noise, too": (
+        "Für Scans und organische Formen: hält auch mehrere Kanten breites Rauschen für Rauschen"
     ),
     "CAD (prismatic)": "CAD (prismatisch)",
-    "For machine parts and buildings: works on normals, makes flat faces and sharp creases": (
-        "Für Maschinenteile und Gebäude: arbeitet an Normalen, macht ebene Flächen und scharfe Kanten"
+    "For machine parts and buildings with strong noise: one pass more, for sharper creases": (
+        "Für Maschinenteile und Gebäude mit starkem Rauschen: ein Durchgang mehr, für schärfere Kanten"
     ),
     "Marching Cubes / CT": "Marching Cubes / CT",
     "For surfaces made of voxels, as from CT: turns steps into smooth shapes and does not shrink them": (
@@ -60,12 +60,8 @@ TEXTS = {
     # Engines
     "Engine": "Verfahren",
     "How the surface is cleaned": "Wie die Oberfläche gereinigt wird",
-    "Measures the noise, tries several ways of cleaning the directions of the faces, and takes the best": (
-        "Misst das Rauschen, probiert mehrere Arten, die Richtungen der Flächen zu reinigen, und nimmt die beste"
-    ),
-    "Normals (keeps features)": "Normalen (erhält Kanten)",
-    "Cleans the directions of the faces, then fits the vertices to them; keeps sharp features": (
-        "Reinigt die Richtungen der Flächen und passt die Punkte daran an; erhält scharfe Kanten"
+    "Learned shrinkage: cleans the directions of the faces, then fits the vertices to them; keeps features": (
+        "Gelernte Schrumpfung: reinigt die Richtungen der Flächen und passt die Punkte daran an; erhält Kanten"
     ),
     "Positions (paper)": "Positionen (Artikel)",
     "Split Bregman on vertex positions with a tight wavelet frame": (
@@ -75,10 +71,31 @@ TEXTS = {
         "Bilaterales Filtern (Fleishman et al. 2003), der Vergleichsmaßstab des Artikels"
     ),
     "Strength": "Stärke",
-    "Strength of the noise that is removed, in units of the noise that was measured: larger removes more noise and "
-    "more detail; 1 trusts the measurement, 0 changes nothing": (
-        "Stärke des Rauschens, das entfernt wird, in Einheiten des gemessenen Rauschens: größer entfernt mehr "
-        "Rauschen und mehr Einzelheiten; 1 vertraut der Messung, 0 ändert nichts"
+    "How strong the noise is taken to be, in units of what the mesh shows: larger removes more noise and more "
+    "detail; 1 trusts the mesh, 0 changes nothing": (
+        "Für wie stark das Rauschen gehalten wird, in Einheiten dessen, was das Netz zeigt: größer entfernt mehr "
+        "Rauschen und mehr Einzelheiten; 1 vertraut dem Netz, 0 ändert nichts"
+    ),
+    "How wide the noise is: fine relief and wide noise look alike, and nobody but you knows which it is": (
+        "Wie breit das Rauschen ist: feines Relief und breites Rauschen sehen gleich aus, und nur Sie wissen, was "
+        "es ist"
+    ),
+    "What the mesh shows; fine relief stays where it can be told from noise": (
+        "Was das Netz zeigt; feines Relief bleibt, wo es von Rauschen zu unterscheiden ist"
+    ),
+    "Fine": "Fein",
+    "Different from vertex to vertex; what is wider is taken for relief": (
+        "Von Punkt zu Punkt verschieden; was breiter ist, gilt als Relief"
+    ),
+    "Wide": "Breit",
+    "Smooth over several edges, or steps of voxels and terraces; fine relief goes too": (
+        "Über mehrere Kanten glatt, oder Stufen von Voxeln und Terrassen; auch feines Relief verschwindet"
+    ),
+    "Passes": "Durchgänge",
+    "How often the surface is cleaned, each time guided by the result before: larger cleans strong noise on machine "
+    "parts better": (
+        "Wie oft die Oberfläche gereinigt wird, jedes Mal vom Ergebnis davor geleitet: größer reinigt starkes "
+        "Rauschen auf Maschinenteilen besser"
     ),
     "Parameters": "Parameter",
     "Where λ, μ and the number of iterations come from": "Woher λ, μ und die Zahl der Schritte kommen",
@@ -161,7 +178,7 @@ TEXTS = {
     "Boundary vertices move like all others, so that open borders shrink": (
         "Randpunkte bewegen sich wie alle anderen, sodass offene Ränder schrumpfen"
     ),
-    # Bilateral and normals
+    # Bilateral
     "Neighborhood σc": "Umgebung σc",
     "Bilateral: width of the neighborhood, in mean edge lengths; larger smooths over a wider area": (
         "Bilateral: Breite der Umgebung, in mittleren Kantenlängen; größer glättet über eine weitere Fläche"
@@ -171,36 +188,6 @@ TEXTS = {
     "0 measures the heights of the mesh": (
         "Bilateral: Höhen bis hierher gelten als Rauschen, in mittleren Kantenlängen; größer glättet höhere Formen; "
         "0 misst die Höhen des Netzes"
-    ),
-    "Threshold": "Schwelle",
-    "Normals: differences between neighboring faces up to this count as noise, in units of the median difference; "
-    "larger removes stronger noise and more detail": (
-        "Normalen: Unterschiede benachbarter Flächen bis hierher gelten als Rauschen, in Einheiten des mittleren "
-        "Unterschieds; größer entfernt stärkeres Rauschen und mehr Einzelheiten"
-    ),
-    "Sharpening": "Schärfung",
-    "Normals: above 0, jumps of unit normals that are much longer than this are kept whole, for shapes made of "
-    "planes; larger keeps fewer of them": (
-        "Normalen: über 0 bleiben Sprünge der Einheitsnormalen, die viel länger sind, ganz erhalten, für Formen aus "
-        "Ebenen; größer erhält weniger davon"
-    ),
-    "Crease σn": "Kante σn",
-    "Normals: faces whose unit normals are farther apart than this are not averaged; larger smooths over sharper "
-    "creases": (
-        "Normalen: Flächen, deren Einheitsnormalen weiter auseinander liegen, werden nicht gemittelt; größer glättet "
-        "auch schärfere Kanten"
-    ),
-    "Averaging Steps": "Mittelungen",
-    "Normals: steps of averaging in each pass; larger makes wider, flatter regions; 0 leaves it out": (
-        "Normalen: Mittelungen in jedem Durchgang; größer macht weitere, flachere Bereiche; 0 lässt sie weg"
-    ),
-    "Passes": "Durchgänge",
-    "Normals: passes of averaging, each guided by the one before; larger finds creases better": (
-        "Normalen: Durchgänge des Mittelns, jeder vom vorigen geleitet; größer findet Kanten besser"
-    ),
-    "Vertex Steps": "Punktschritte",
-    "Normals: steps of fitting the vertices to the cleaned directions; larger fits them better": (
-        "Normalen: Schritte, die Punkte an die gereinigten Richtungen anzupassen; größer passt sie besser an"
     ),
     "Threads": "Threads",
     "Number of threads: larger is faster, up to the number of cores, with the same result; 0 uses all": (

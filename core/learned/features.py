@@ -1,0 +1,235 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the net sees of a surface: scalars that do not depend on pose, size or numbering.
+
+Lengths are in the local unit. Energies are logarithms with a floor, e(x) = log(x^2 + 1e-4).
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..averages.means import Means
+from .face_graph import FaceGraph, Polygons
+from ..averages.ring_means import RingMeans
+from .scales import N_SCALES, Scales
+
+FLOOR = np.float32(1e-4)
+"""Least energy: jumps of normals and heights below a hundredth are as good as none."""
+
+SPREAD_AVERAGES = 64
+"""Averages over which energies are spread, about six rings."""
+
+N_SAMPLES = 4096
+"""Faces of an island from which its quantiles are taken."""
+
+LEAST_ISLAND = 500
+"""Islands with fewer faces have their quantiles together."""
+
+PAIRS_OF_SCALES = ((0, 1), (1, 2), (2, 3), (0, 2), (1, 3), (0, 3))
+
+N_SPREAD = 8
+N_GLOBAL = 17
+N_FACE = 3 + 3 + len(PAIRS_OF_SCALES) + 1 + N_SPREAD + N_GLOBAL
+N_EDGE = 7
+
+
+class Features(NamedTuple):
+    """Inputs of the net.
+
+    Attributes
+    ----------
+    faces : ndarray, shape (F, N_FACE), float32
+        Heights and energies at each face, the same spread over its neighborhood, and quantiles over its
+        island.
+    pairs : ndarray, shape (P + 1, N_EDGE), float32
+        Distance, ratio of areas, bends and offsets across each edge; 0 for the pair without faces.
+    spread : slice
+        Which columns of `faces` are spread energies.
+    """
+
+    faces: NDArray[np.float32]
+    pairs: NDArray[np.float32]
+
+
+def energy(values: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Return log(values^2 + floor)."""
+    result = values * values
+    result += FLOOR
+    return np.log(result, out=result)
+
+
+def find_features(
+    scales: Scales,
+    graph: FaceGraph,
+    rings: RingMeans,
+    at_vertex: Means,
+    island: NDArray[np.int32] | None,
+    log_strength: float = 0.0,
+    width: float = 0.0,
+) -> Features:
+    """Describe a surface for the net.
+
+    Parameters
+    ----------
+    scales : Scales
+        The surface at all scales.
+    graph : FaceGraph
+        Pairs of faces.
+    rings : RingMeans
+        Means over one-rings.
+    at_vertex : Means
+        Faces of the graph at each vertex.
+    island : ndarray, shape (F,), int32, or None
+        Number of the connected part that each face belongs to; None if there is one.
+    log_strength : float
+        Logarithm of Strength: added to the logarithms of fine jumps, and half of it to those of heights.
+    width : float
+        What is expected of the noise: 1 wide, -1 fine, 0 nothing.
+    """
+    n_bands = N_SCALES - 1
+    faces = np.empty((graph.n_faces, N_FACE), np.float32)
+    pairs = np.zeros((graph.n_pairs + 1, N_EDGE), np.float32)
+    jumps = np.empty((graph.n_pairs + 1, 4), np.float32)
+    jumps[-1] = np.log(FLOOR)
+    jumps[:, 3] = 0
+    normals, centroids, areas = scales.normals, scales.centroids, scales.areas
+
+    def across(start: int, stop: int) -> None:
+        one, two = graph.first[start:stop], graph.second[start:stop]
+        unit = np.float32(0.5) * (scales.length.take(one) + scales.length.take(two))
+        bend = np.zeros((stop - start, N_SCALES), np.float32)
+        offset = np.zeros_like(bend)
+        distance = np.zeros_like(bend)
+        jump = np.zeros_like(bend)
+        for axis in range(3):
+            normal_one = normals[axis].take(one, axis=0)
+            normal_two = normals[axis].take(two, axis=0)
+            arm = centroids[axis].take(two, axis=0)
+            arm -= centroids[axis].take(one, axis=0)
+            apart = normal_two - normal_one
+            distance += arm * arm
+            jump += apart * apart
+            apart *= arm
+            bend += apart
+            normal_one += normal_two
+            normal_one *= arm
+            offset += normal_one
+        jump += FLOOR
+        np.log(jump, out=jump)
+        jumps[start:stop, :n_bands] = jump[:, :n_bands]
+        distance += np.float32(1e-20)
+        np.sqrt(distance, out=distance)
+        bend /= distance
+        part = pairs[start:stop]
+        ratio = np.log((areas[:, 0].take(one) + FLOOR) / (areas[:, 0].take(two) + FLOOR))
+        part[:, 0] = np.log(distance[:, 0] / unit + np.float32(0.01))
+        part[:, 1] = np.abs(ratio, out=ratio)
+        part[:, 2 : 2 + n_bands] = bend[:, :n_bands]
+        part[:, 2 + n_bands :] = energy(offset[:, :2] / unit[:, None])
+
+    graph.for_pairs(across)
+    spread = np.empty((graph.n_faces, N_SPREAD), np.float32)
+    is_flat = np.empty(graph.n_faces, bool)
+
+    def inside(block: slice, polygons: Polygons) -> None:
+        part = faces[block]
+        unit = scales.length[block]
+        height = np.zeros((len(part), N_SCALES), np.float32)
+        for axis in range(3):
+            center = centroids[axis, block]
+            step = np.zeros_like(height)
+            step[:, :-1] = center[:, :-1] - center[:, 1:]
+            step[:, :-1] *= normals[axis, block, 1:]
+            height += step
+        height /= unit[:, None]
+        part[:, :n_bands] = height[:, :n_bands]
+        heights = energy(height)
+        part[:, n_bands : 2 * n_bands] = heights[:, :n_bands]
+        for column, (one, two) in enumerate(PAIRS_OF_SCALES, 2 * n_bands):
+            apart = np.zeros(len(part), np.float32)
+            for axis in range(3):
+                step = normals[axis, block, one] - normals[axis, block, two]
+                step *= step
+                apart += step
+            apart += FLOOR
+            part[:, column] = np.log(apart)
+        column = 2 * n_bands + len(PAIRS_OF_SCALES)
+        part[:, column] = np.log(areas[block, 0] / (unit * unit) + np.float32(0.01))
+        around = jumps.take(polygons.pairs, axis=0)
+        energies = around.reshape(len(around), -1).sum(axis=0).reshape(-1, 4)
+        energies *= np.float32(1.0 / len(around))
+        own = spread[block]
+        own[:, :n_bands] = energies[:, :n_bands]
+        own[:, n_bands : 2 * n_bands] = heights[:, :n_bands]
+        own[:, -2] = energies[:, 0] ** 2
+        own[:, -1] = heights[:, 0] ** 2
+        is_flat[block] = (around[..., 0].max(axis=0) < np.log(2 * FLOOR)) & (
+            np.abs(height[:, 0]) < np.float32(1e-3)
+        )
+
+    graph.for_faces(inside)
+    column = 2 * n_bands + len(PAIRS_OF_SCALES) + 1
+    faces[:, column + N_SPREAD :] = _quantiles(spread, is_flat, island, log_strength, width)
+    at_faces = rings.inward(at_vertex.outward(at_vertex.mean(spread)))
+    at_faces = rings.outward(rings.averaged(at_faces, SPREAD_AVERAGES))
+
+    def collect(block: slice, polygons: Polygons) -> None:
+        corners = at_faces.take(polygons.corners, axis=0)
+        total = corners.reshape(len(corners), -1).sum(axis=0).reshape(-1, N_SPREAD)
+        total *= np.float32(1.0 / len(corners))
+        # The two second moments become deviations.
+        for moment, mean in ((-2, 0), (-1, n_bands)):
+            variance = total[:, moment] - total[:, mean] ** 2
+            total[:, moment] = np.sqrt(np.maximum(variance, 0))
+        if log_strength:
+            total[:, :2] += np.float32(2 * log_strength)
+            total[:, n_bands : 2 * n_bands] += np.float32(log_strength)
+        faces[block, column : column + N_SPREAD] = total
+
+    graph.for_faces(collect)
+    return Features(faces, pairs)
+
+
+def _quantiles(
+    energies: NDArray[np.float32],
+    is_flat: NDArray[np.bool_],
+    island: NDArray[np.int32] | None,
+    log_strength: float,
+    width: float,
+) -> NDArray[np.float32]:
+    """Return quantiles over the island of each face, shape (F or 1, N_GLOBAL); exactly flat faces do not count."""
+    if island is None:
+        return _quantiles_of(energies, is_flat, log_strength, width)[None]
+    sizes = np.bincount(island)
+    number = np.where(sizes >= LEAST_ISLAND, np.arange(len(sizes)), -1)[island]
+    result = np.empty((len(island), N_GLOBAL), np.float32)
+    by_island = np.argsort(number, kind="stable")
+    for part in np.split(by_island, np.flatnonzero(np.diff(number[by_island])) + 1):
+        if len(part):
+            result[part] = _quantiles_of(energies[part], is_flat[part], log_strength, width)
+    return result
+
+
+def _quantiles_of(
+    energies: NDArray[np.float32], is_flat: NDArray[np.bool_], log_strength: float, width: float
+) -> NDArray[np.float32]:
+    """Return quantiles of energies of faces, shape (F, 8), as N_GLOBAL numbers."""
+    n_bands = N_SCALES - 1
+    counted = np.flatnonzero(~is_flat)
+    share = len(counted) / max(len(is_flat), 1)
+    if not len(counted):
+        counted = np.arange(min(len(is_flat), 1))
+    # Evenly spread, so that the sample does not depend on chance.
+    chosen = counted[np.linspace(0, len(counted) - 1, min(len(counted), N_SAMPLES)).astype(np.intp)]
+    ordered = np.sort(energies[chosen][:, : 2 * n_bands], axis=0)
+    last = len(ordered) - 1
+    jumps = ordered[[round(q * last) for q in (0.25, 0.5, 0.75)], :n_bands]
+    heights = ordered[[round(q * last) for q in (0.5, 0.9)], n_bands:]
+    jumps[:, :2] += np.float32(2 * log_strength)
+    heights += np.float32(log_strength)
+    values = [*jumps.T.ravel(), *heights.T.ravel(), np.log(share + 0.01), width]
+    return np.array(values, np.float32)

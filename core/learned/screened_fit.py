@@ -1,0 +1,303 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Vertices that fit wanted face normals and stay near where they were: a screened Poisson problem.
+
+With wanted normals n_f, centroids c_f, weights w_f and noisy positions p_v the minimum of
+
+    sum over faces f and corners v of w_f <n_f, v - c_f>^2
+    + sum over v of val(v) (NORMAL_PULL <m_v, v - p_v>^2 + TANGENT_PULL |(v - p_v) across m_v|^2)
+
+with m_v the direction of the mean wanted normal at v. The second sum keeps what is wider than the normals
+can tell and holds vertices within the surface. Where normals spread, at creases and corners, the first is
+stiff in more directions and wins by itself.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..averages.means import Means, padded
+from .face_graph import FaceGraph, Polygons
+from ..averages.ring_means import RingMeans
+
+NORMAL_PULL = 0.006
+TANGENT_PULL = 0.1
+
+LOWEST, HIGHEST = 0.05, 1.12
+"""Eigenvalues that Chebyshev steps are made for. Lower ones belong to wide shapes, which hardly change."""
+
+STEPS = 12
+"""Steps of a fit from the noisy positions."""
+
+NEEDLE = 0.1
+"""Height over longest edge below which a face counts less: its normal says little about where it is."""
+
+LEAN = 0.5
+"""Cosine to its wanted normal below which a face is folded: 60 degrees."""
+
+UNFOLDING_ROUNDS = 12
+
+
+class ScreenedFit:
+    """The fit on a mesh.
+
+    Parameters
+    ----------
+    graph : FaceGraph
+        Faces and their corners.
+    at_vertex : Means
+        Faces of the graph at each vertex.
+    rings : RingMeans
+        Neighbors of vertices.
+    """
+
+    def __init__(self, graph: FaceGraph, at_vertex: Means, rings: RingMeans) -> None:
+        self._graph, self._at_vertex, self._rings = graph, at_vertex, rings
+        self._corners = [at_vertex.place.take(group.corners) for group in graph.groups]
+
+    def fit(
+        self,
+        points: NDArray[np.float32],
+        normals: NDArray[np.float32],
+        is_free: NDArray[np.bool_] | None = None,
+    ) -> NDArray[np.float32]:
+        """Return fitted positions.
+
+        Parameters
+        ----------
+        points : ndarray, shape (3, N), float32
+            Noisy positions.
+        normals : ndarray, shape (3, F), float32
+            Wanted unit normals of the faces of the graph.
+        is_free : ndarray, shape (N,), bool, optional
+            Vertices that may move; all by default.
+
+        Returns
+        -------
+        ndarray, shape (3, N), float32
+        """
+        weights = self._needle_weights(points)
+        if is_free is not None and is_free.all():
+            is_free = None
+        fitted = self._solved(points, normals, weights, STEPS, is_free)
+        unfolded = self._unfolded(fitted, normals, is_free)
+        return fitted if unfolded is None else self._solved(unfolded, normals, weights, STEPS // 2, is_free)
+
+    def _needle_weights(self, points: NDArray[np.float32]) -> NDArray[np.float32]:
+        """Return the weight of each face, shape (F,): 1, and less where it is thin."""
+        weights = np.empty(self._graph.n_faces, np.float32)
+
+        def kernel(faces: slice, polygons: Polygons) -> None:
+            corners = [points.take(own, axis=1) for own in polygons.corners]
+            area = doubled_areas(corners)
+            longest = np.zeros_like(area)
+            for corner, following in zip(corners, corners[1:] + corners[:1], strict=True):
+                edge = following - corner
+                edge *= edge
+                np.maximum(longest, edge.sum(axis=0), out=longest)
+            area /= np.maximum(longest, np.float32(1e-30))
+            area *= np.float32(1.0 / NEEDLE)
+            np.minimum(area, np.float32(1), out=weights[faces])
+
+        self._graph.for_faces(kernel)
+        return weights
+
+    def _solved(
+        self,
+        points: NDArray[np.float32],
+        normals: NDArray[np.float32],
+        weights: NDArray[np.float32],
+        n_steps: int,
+        is_free: NDArray[np.bool_] | None,
+    ) -> NDArray[np.float32]:
+        """Return the positions after some Chebyshev steps from `points`, where the vertices are held."""
+        graph, at_vertex = self._graph, self._at_vertex
+        n_vertices = points.shape[1]
+        rows = at_vertex.inward(padded(points))
+        pulls = np.zeros((graph.n_faces, 4), np.float32)
+        arms = np.zeros((graph.n_faces, 4), np.float32)  # w n, and w <n, c> for centroids c
+        matrix = np.zeros((6, n_vertices), np.float32)
+        residual = np.zeros((n_vertices, 4), np.float32)
+
+        def project(field: NDArray[np.float32], keep: NDArray[np.float32] | None) -> None:
+            for group, corners in zip(graph.groups, self._corners, strict=True):
+                share = np.float32(1.0 / len(corners))
+
+                def kernel(
+                    start: int,
+                    stop: int,
+                    group: Polygons = group,
+                    corners: NDArray[np.int32] = corners,
+                    share: np.float32 = share,
+                ) -> None:
+                    middle = field.take(corners[0, start:stop], axis=0)
+                    for corner in corners[1:, start:stop]:
+                        middle += field.take(corner, axis=0)
+                    middle *= share
+                    faces = slice(group.begin + start, group.begin + stop)
+                    normal = normals[:, faces]
+                    along = normal[0] * middle[:, 0]
+                    along += normal[1] * middle[:, 1]
+                    along += normal[2] * middle[:, 2]
+                    along *= weights[faces]
+                    if keep is not None:
+                        keep[faces, 3] = along
+                        for axis in range(3):
+                            np.multiply(normal[axis], weights[faces], out=keep[faces, axis])
+                    else:
+                        for axis in range(3):
+                            np.multiply(normal[axis], along, out=pulls[faces, axis])
+
+                graph.blocks.run(kernel, group.end - group.begin)
+
+        project(rows, arms)
+        plain = padded(normals)
+
+        def begin(part: slice, members: NDArray[np.int32]) -> None:
+            if not len(members):
+                return
+            share = np.float32(1.0 / len(members))
+            weighted = np.ascontiguousarray(np.moveaxis(arms.take(members, axis=0), 2, 0))
+            normal = np.ascontiguousarray(np.moveaxis(plain.take(members, axis=0), 2, 0)[:3])
+            along = weighted[3].copy()
+            for axis in range(3):
+                along -= weighted[axis] * rows[part, axis]
+            mean = normal.sum(axis=1)
+            length = (mean * mean).sum(axis=0)
+            np.divide(mean, np.sqrt(np.maximum(length, np.float32(1e-12))), out=mean)
+            for axis in range(3):
+                residual[part, axis] = (normal[axis] * along).sum(axis=0) * share
+            for entry, (i, j) in enumerate(ENTRIES):
+                own = (weighted[i] * normal[j]).sum(axis=0)
+                own *= share
+                own += np.float32(NORMAL_PULL - TANGENT_PULL) * mean[i] * mean[j]
+                if i == j:
+                    own += np.float32(TANGENT_PULL)
+                matrix[entry, part] = own
+
+        at_vertex.for_parts(begin)
+        free = None
+        if is_free is not None:
+            # Rows of what is held are 0 in all steps.
+            free = np.repeat(at_vertex.inward(is_free).astype(np.float32)[:, None], 4, axis=1)
+            residual *= free
+        middle, half = np.float32((HIGHEST + LOWEST) / 2), np.float32((HIGHEST - LOWEST) / 2)
+        step = residual / middle
+        total = step.copy()
+        rho = half / middle
+        for _ in range(n_steps - 1):
+            project(step, None)
+            following = np.float32(1) / (2 * middle / half - rho)
+            keep, gain = np.float32(following * rho), np.float32(2 * following / half)
+
+            def advance(
+                part: slice,
+                means: NDArray[np.float32],
+                step: NDArray[np.float32] = step,
+                keep: np.float32 = keep,
+                gain: np.float32 = gain,
+            ) -> None:
+                own = np.ascontiguousarray(step[part].T)
+                for axis, entries in enumerate(MATRIX_ROWS):
+                    product = matrix[entries[0], part] * own[0]
+                    product += matrix[entries[1], part] * own[1]
+                    product += matrix[entries[2], part] * own[2]
+                    means[:, axis] -= product
+                means += residual[part]
+                if free is not None:
+                    means *= free[part]
+                residual[part] = means
+                means *= gain
+                means += keep * step[part]
+                step[part] = means
+                total[part] += means
+
+            # Faces have been read before any vertex is written.
+            at_vertex.visit(pulls, advance)
+            rho = following
+        result = np.empty_like(points)
+
+        def move(start: int, stop: int) -> None:
+            moved = total.take(at_vertex.place[start:stop], axis=0)
+            np.add(points[:, start:stop], moved[:, :3].T, out=result[:, start:stop])
+
+        graph.blocks.run(move, n_vertices)
+        return result
+
+    def _unfolded(
+        self,
+        points: NDArray[np.float32],
+        normals: NDArray[np.float32],
+        is_free: NDArray[np.bool_] | None,
+    ) -> NDArray[np.float32] | None:
+        """Return positions without folded faces, as far as that was reached; None if nothing is folded."""
+        graph, rings = self._graph, self._rings
+        suspects: list[NDArray[np.intp]] | None = None
+        moved: NDArray[np.float32] | None = None
+        for _ in range(UNFOLDING_ROUNDS):
+            folded = self._folded(points if moved is None else moved, normals, suspects)
+            vertices = np.unique(
+                np.concatenate([group.corners[:, own].ravel() for group, own in zip(graph.groups, folded, strict=True)])
+            )
+            if is_free is not None:
+                vertices = vertices[is_free[vertices]]
+            if not len(vertices):
+                break
+            if moved is None:
+                moved = points.copy()
+            goal = rings.mean_at(moved, vertices)
+            moved[:, vertices] += np.float32(0.5) * (goal - moved[:, vertices])
+            is_moved = np.zeros(points.shape[1], bool)
+            is_moved[vertices] = True
+            suspects = [np.flatnonzero(is_moved[group.corners].any(axis=0)) for group in graph.groups]
+        return moved
+
+    def _folded(
+        self,
+        points: NDArray[np.float32],
+        normals: NDArray[np.float32],
+        suspects: list[NDArray[np.intp]] | None,
+    ) -> list[NDArray[np.intp]]:
+        """Return the folded faces of each group, numbered inside it, among all or some."""
+        found = []
+        for number, group in enumerate(self._graph.groups):
+            chosen = None if suspects is None else suspects[number]
+
+            def is_folded(
+                start: int, stop: int, group: Polygons = group, chosen: NDArray[np.intp] | None = chosen
+            ) -> NDArray[np.bool_]:
+                own = np.arange(start, stop) if chosen is None else chosen[start:stop]
+                area = fan_areas([points.take(corner[own], axis=1) for corner in group.corners])
+                along = (area * normals[:, group.begin + own]).sum(axis=0)
+                return along < np.float32(LEAN) * np.sqrt((area * area).sum(axis=0))
+
+            n_items = group.end - group.begin if chosen is None else len(chosen)
+            places = self._graph.blocks.indices(is_folded, n_items)
+            found.append(places if chosen is None else chosen[places])
+        return found
+
+
+def fan_areas(corners: list[NDArray[np.float32]]) -> NDArray[np.float32]:
+    """Return twice the area vectors of faces, shape (3, n), from their corners, each of shape (3, n)."""
+    arms = [corner - corners[0] for corner in corners[1:]]
+    total = np.zeros_like(corners[0])
+    for (a, b, c), (x, y, z) in zip(arms[:-1], arms[1:], strict=True):
+        total[0] += b * z - c * y
+        total[1] += c * x - a * z
+        total[2] += a * y - b * x
+    return total
+
+
+def doubled_areas(corners: list[NDArray[np.float32]]) -> NDArray[np.float32]:
+    """Return twice the areas of faces, shape (n,)."""
+    area = fan_areas(corners)
+    area *= area
+    return np.sqrt(area.sum(axis=0))
+
+
+ENTRIES = ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))
+"""The entries of a symmetric matrix that differ."""
+
+MATRIX_ROWS = ((0, 1, 2), (1, 3, 4), (2, 4, 5))
+"""For each row of a symmetric matrix where its entries are in `ENTRIES`."""

@@ -1,0 +1,186 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is clean and stays put, bit for bit: a rule outside of the net, which moves everything a little.
+
+Two things never come out of noise: faces that are coplanar to the last digit, several of them side by side,
+and places where cubic polynomials fit two-rings to within `CLEAN` local edge lengths. The first stay flat.
+Where the second are frequent, all vertices stay but those that stick out alone.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..blocks import Blocks
+from ..noise.fits import fit_heights
+from ..noise.patches import find_patches, local_adjacency, spread_sample
+from ..averages.means import padded
+from ..surface.connectivity import Connectivity
+from ..surface.surface_mesh import SurfaceMesh
+from .face_graph import FaceGraph, Polygons
+from ..averages.ring_means import RingMeans
+from .scales import Scales
+
+ROUNDING = 4.0
+"""Units of rounding of the coordinates by which the corners of coplanar faces may miss their plane."""
+
+MANY_COPLANAR = 0.1
+"""Share of coplanar faces from which one that has a single coplanar neighbor is no coincidence."""
+
+CLEAN = 0.004
+"""Leftovers of the fits, in local edge lengths, below which a two-ring is clean."""
+
+FEW, MANY = 600, 8192
+"""Two-rings that are looked at on any mesh, and on one that has clean ones among those."""
+
+SOME_CLEAN = 0.03
+"""Share of clean two-rings from which a mesh may have clean parts."""
+
+MOSTLY_CLEAN = 0.25
+"""Share of clean two-rings around a vertex from which it stays: fits fail at creases of clean meshes too."""
+
+LEAST_FREEDOM = 3.0
+
+STICKS_OUT, TIMES_AROUND = 0.5, 4.0
+"""Height over the low-pass, in local edge lengths and in heights of the ring, of a vertex that sticks out."""
+
+
+def find_still(
+    points: NDArray[np.float32],
+    surface: SurfaceMesh,
+    connectivity: Connectivity,
+    scales: Scales,
+    graph: FaceGraph,
+    rings: RingMeans,
+    blocks: Blocks,
+) -> NDArray[np.bool_]:
+    """Find out what is clean.
+
+    Parameters
+    ----------
+    points : ndarray, shape (3, N), float32
+        Positions.
+    surface, connectivity : SurfaceMesh, Connectivity
+        The mesh, for its faces and rings.
+    scales : Scales
+        The surface at all scales.
+    graph, rings : FaceGraph, RingMeans
+        Faces and rings.
+    blocks : Blocks
+        Threads to work on.
+
+    Returns
+    -------
+    ndarray, shape (N,), bool
+        Vertices that stay.
+    """
+    is_still = _clean_places(points, surface, connectivity, scales.unit, rings, blocks)
+    is_flat = _flat_faces(points, scales, graph)
+    for group in graph.groups:
+        is_still[group.corners[:, is_flat[group.begin : group.end]]] = True
+    return is_still
+
+
+def _flat_faces(points: NDArray[np.float32], scales: Scales, graph: FaceGraph) -> NDArray[np.bool_]:
+    """Return faces that are coplanar with others, shape (F,).
+
+    By chance one neighbor may be. Two are no chance, or one that has two itself, or one where many have one.
+    The corners of a polygon beyond three count like neighbors.
+    """
+    normals = scales.normals[..., 0]
+    rounding = np.float32(ROUNDING) * np.spacing(np.abs(points).max(initial=np.float32(1)))
+    counts = np.zeros(graph.n_faces, np.int32)
+    is_pair = np.zeros(graph.n_pairs + 1, bool)
+
+    def compare(start: int, stop: int) -> None:
+        one, two = graph.first[start:stop], graph.second[start:stop]
+        apart = normals.take(two, axis=1) - normals.take(one, axis=1)
+        height = np.minimum(_heights(scales, one), _heights(scales, two))
+        is_pair[start:stop] = (apart * apart).sum(axis=0) * height * height < rounding * rounding
+
+    def count(faces: slice, polygons: Polygons) -> None:
+        counts[faces] = is_pair[polygons.pairs].sum(axis=0)
+        center = scales.centroids[:, faces, 0]
+        own = normals[:, faces]
+        for corners in polygons.corners[3:]:
+            away = points.take(corners, axis=1) - center
+            counts[faces] += np.abs((away * own).sum(axis=0)) < rounding
+
+    is_flat = np.zeros(graph.n_faces, bool)
+    graph.for_pairs(compare)
+    graph.for_faces(count)
+    is_common = np.count_nonzero(counts) > MANY_COPLANAR * graph.n_faces
+
+    def decide(faces: slice, polygons: Polygons) -> None:
+        own = counts[faces]
+        partners = np.where(is_pair[polygons.pairs], counts[polygons.neighbors], 0).max(axis=0)
+        is_flat[faces] = (own > 1) | ((own == 1) & (is_common | (partners > 1)))
+
+    graph.for_faces(decide)
+    return is_flat
+
+
+def _heights(scales: Scales, faces: NDArray[np.int32]) -> NDArray[np.float32]:
+    """Return about the heights of faces, shape (n,): area over local edge length."""
+    return scales.areas[:, 0].take(faces) / scales.length.take(faces)
+
+
+def _clean_places(
+    points: NDArray[np.float32],
+    surface: SurfaceMesh,
+    connectivity: Connectivity,
+    unit: NDArray[np.float32],
+    rings: RingMeans,
+    blocks: Blocks,
+) -> NDArray[np.bool_]:
+    """Return vertices in clean places that do not stick out, shape (N,)."""
+    n_vertices = points.shape[1]
+    positions = np.ascontiguousarray(points.T, np.float64)
+    used = np.flatnonzero(~connectivity.is_loose)
+    is_clean = np.zeros(n_vertices, bool)
+    for n_samples in (FEW, MANY):
+        centers = spread_sample(positions, used, n_samples)
+        adjacency = local_adjacency(surface, connectivity, centers)
+
+        def look(
+            start: int, stop: int, centers: NDArray[np.intp] = centers, adjacency=adjacency
+        ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+            own = centers[start:stop]
+            found = fit_heights(positions, find_patches(adjacency, own))
+            is_known = found.freedom >= LEAST_FREEDOM
+            return is_known, is_known & (found.variance < (CLEAN * unit[own]) ** 2)
+
+        parts = blocks.sized(256).run(look, len(centers))
+        is_known, is_quiet = (np.concatenate(part) for part in zip(*parts, strict=True))
+        if is_quiet.sum() < SOME_CLEAN * max(is_known.sum(), 1):
+            return is_clean
+    counts = np.zeros((n_vertices, 2), np.float32)
+    counts[centers, 0] = is_known
+    counts[centers, 1] = is_quiet
+    n_averages = int(64 * max(1, n_vertices // len(centers)))
+    around = rings.outward(rings.averaged(rings.inward(counts), min(n_averages, 1024)))
+    share = around[:, 1] / np.maximum(around[:, 0], np.float32(1e-6))
+    is_clean = share > MOSTLY_CLEAN
+    is_clean &= ~_sticking_out(points, unit, rings)
+    return is_clean
+
+
+def _sticking_out(
+    points: NDArray[np.float32], unit: NDArray[np.float32], rings: RingMeans
+) -> NDArray[np.bool_]:
+    """Return vertices that are far from the mean of their ring, while those around them are not, shape (N,)."""
+    rows = rings.inward(padded(points))
+    away = rings.mean(rows)
+    away -= rows
+    distance = np.sqrt((away * away).sum(axis=1)) / np.maximum(rings.inward(unit), np.float32(1e-12))
+    # A spike moves the means of its neighbors by a valence-th of its height each.
+    around = np.zeros_like(distance)
+
+    def median(part: slice, members: NDArray[np.int32]) -> None:
+        if len(members):
+            around[part] = np.median(distance.take(members), axis=0)
+
+    rings.for_parts(median)
+    sticks_out = (distance > STICKS_OUT) & (distance > TIMES_AROUND * around)
+    return rings.outward(sticks_out)

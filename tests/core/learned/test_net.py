@@ -1,0 +1,174 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The net against a loop over faces and pairs, and that its arrays are read late and once."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import framelet.core as core
+import numpy as np
+import pytest
+from checks import assert_same_bits, random_rotation
+from framelet.core import connect
+from framelet.core.blocks import Blocks
+from framelet.core.learned import face_graph, net
+from framelet.core.learned.engine import FaceEngine
+from kinds import ALONE, KINDS
+from learned_twins import pairs_of, slow_net
+from meshes import MESHES, noisy, prism, triangle_torus, union
+
+ROOT = Path(core.__file__).resolve().parent.parent
+NETS = {
+    **{name: KINDS[name] for name in ("irregular torus", "quad torus", "mixed sheet", "three pages", "border")},
+    "polygons": lambda: union(prism(), prism(5), MESHES["tetrahedron"]()),
+    "single triangle": MESHES["single triangle"],
+    "single quad": MESHES["single quad"],
+}
+REPEATS = (1, 2, 1)
+
+
+@pytest.fixture
+def short(monkeypatch):
+    """Three layers are as good as many to compare, and cheaper."""
+    monkeypatch.setattr(net, "REPEATS", REPEATS)
+
+
+def random_arrays(rng, n_layers=len(REPEATS)):
+    """Return arrays of the shapes that come with Framelet, as a net begins."""
+    with np.load(net.WEIGHTS) as file:
+        shapes = {name: file[name].shape for name in file.files if file[name].dtype.kind == "f"}
+    arrays = {}
+    for name, shape in shapes.items():
+        if name.startswith("layers.") and int(name.split(".")[1]) >= n_layers:
+            continue
+        if name.endswith("_scale"):
+            arrays[name] = rng.uniform(0.5, 2.0, shape)
+        else:
+            arrays[name] = rng.normal(0, 0.5 / np.sqrt(shape[-1] if len(shape) > 1 else 1), shape)
+    return {name: array.astype(np.float32) for name, array in arrays.items()}
+
+
+def described(mesh, blocks=ALONE):
+    engine = FaceEngine(mesh, connect(mesh), blocks)
+    return engine, *engine.describe(np.ascontiguousarray(mesh.vertices.T, np.float32))
+
+
+@pytest.mark.parametrize("name", NETS)
+@pytest.mark.usefixtures("short")
+def test_the_net_is_a_loop_over_faces_and_pairs(name, rng):
+    mesh, arrays = noisy(NETS[name](), rng), random_arrays(rng)
+    engine, scales, features = described(mesh)
+    # Copies, as the net works in place.
+    before = [scales.normals.transpose(1, 2, 0), scales.centroids.transpose(1, 2, 0), scales.areas, scales.length]
+    before = [x.astype(float) for x in before]
+    found = net.Net(arrays).normals(scales, features, engine.graph)
+    # The pairs of the twin have the features of the same pairs of the graph.
+    graph, number = engine.graph, {}
+    for place, two in enumerate(zip(graph.first[:-1].tolist(), graph.second[:-1].tolist(), strict=True)):
+        number.setdefault(two, []).append(place)
+    pair_features = [features.pairs[number[f, g].pop(0)] for f, g, _ in pairs_of(mesh)]
+    expected = slow_net(
+        {key: array.astype(float) for key, array in arrays.items()},
+        mesh,
+        before,
+        features.faces.astype(float),
+        [row.astype(float) for row in pair_features],
+        REPEATS,
+    )
+    assert found.shape == (3, graph.n_faces) and found.dtype == np.float32
+    assert np.abs(found.T - expected).max() < 1e-3
+    assert np.abs(np.linalg.norm(expected, axis=1) - 1).max() < 1e-3
+    assert graph.n_faces == 1 or np.abs(expected - before[0][:, 0]).max() > 0.1
+
+
+@pytest.mark.parametrize("name", ["mixed sheet", "polygons"])
+@pytest.mark.usefixtures("short")
+def test_blocks_and_threads_do_not_change_a_bit(name, rng, monkeypatch):
+    mesh, arrays = noisy(NETS[name](), rng), random_arrays(rng)
+    results = []
+    for size, threads in ((4096, 1), (5, 1), (5, 3)):
+        monkeypatch.setattr(face_graph, "FACES_AT_ONCE", size)
+        with Blocks(threads) as blocks:
+            engine, scales, features = described(mesh, blocks)
+            results.append(net.Net(arrays).normals(scales, features, engine.graph))
+    assert_same_bits(results[2], results[1])
+    # Products of other sizes may be summed up in another order.
+    assert np.abs(results[1] - results[0]).max() < 1e-4
+
+
+def test_normals_turn_with_the_mesh(rng):
+    mesh, rotation = noisy(triangle_torus(10, 14), rng), random_rotation(rng)
+    results = []
+    for own in (mesh, mesh.with_vertices(mesh.vertices @ rotation)):
+        engine, scales, features = described(own)
+        results.append(engine.normals(net.load_net(), scales, features).T)
+    assert np.abs(results[1] - results[0] @ rotation).max() < 5e-3
+
+
+def test_normals_are_given_back_where_the_net_does_nothing(rng):
+    """Gains and mixing of zero, and the finest scale alone in the end."""
+    arrays = {name: np.zeros_like(array) for name, array in random_arrays(rng, len(net.REPEATS)).items()}
+    for name in ("face_scale", "edge_scale"):
+        arrays[name] += 1
+    for number in range(len(net.REPEATS)):
+        arrays[f"layers.{number}.gains.bias"] -= 100
+    arrays["leave.bias"][0] = 2
+    mesh = noisy(NETS["mixed sheet"](), rng)
+    engine, scales, features = described(mesh)
+    before = scales.normals[..., 0].copy()
+    found = net.Net(arrays).normals(scales, features, engine.graph)
+    assert np.abs(found - before).max() < 1e-5
+
+
+def test_it_ticks_after_each_layer(rng):
+    mesh, ticks = noisy(NETS["border"](), rng), []
+    engine, scales, features = described(mesh)
+    engine.normals(net.load_net(), scales, features, lambda: ticks.append(0))
+    assert len(ticks) == len(net.REPEATS)
+
+
+def test_large_products_are_taken_in_pieces(rng, monkeypatch):
+    monkeypatch.setattr(net, "SMALL_PRODUCT", 300)
+    rows, matrix = rng.normal(size=(101, 7)).astype(np.float32), rng.normal(size=(7, 5)).astype(np.float32)
+    assert np.abs(net._times(rows, matrix) - rows @ matrix).max() < 1e-5
+    out = np.full((101, 5), np.nan, np.float32)
+    assert net._times(rows, matrix, out) is out and np.isfinite(out).all()
+
+
+def test_the_arrays_that_come_with_framelet_are_small_and_finite():
+    with np.load(net.WEIGHTS) as file:
+        arrays = {name: file[name] for name in file.files}
+    numbers = [array for array in arrays.values() if array.dtype.kind == "f"]
+    assert all(np.isfinite(array).all() for array in numbers)
+    assert sum(array.size for array in numbers) < 50_000
+    assert net.WEIGHTS.stat().st_size < 250_000
+    assert (arrays["face_scale"] > 0).all() and (arrays["edge_scale"] > 0).all()
+
+
+PROGRAM = """
+import importlib.util, sys
+spec = importlib.util.spec_from_file_location("framelet", {init!r}, submodule_search_locations=[{root!r}])
+package = importlib.util.module_from_spec(spec)
+sys.modules["framelet"] = package
+import numpy, framelet.core as core
+calls, load = [], numpy.load
+numpy.load = lambda *given, **named: calls.append(given) or load(*given, **named)
+for name in core.__all__:
+    getattr(core, name)
+mesh = core.SurfaceMesh.from_faces([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 1)], [(0, 1, 2), (2, 1, 3)])
+core.denoise(mesh, core.PRESETS["POSITIONS"].settings)
+core.prepare(mesh)
+assert not calls, calls
+for _ in range(3):
+    core.denoise(mesh)
+assert len(calls) == 1, calls
+"""
+
+
+def test_the_arrays_are_read_by_the_first_run_that_uses_them_and_once():
+    program = PROGRAM.format(init=str(ROOT / "__init__.py"), root=str(ROOT))
+    done = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, timeout=60, check=False
+    )
+    assert done.returncode == 0, done.stderr

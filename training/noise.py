@@ -1,0 +1,172 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Noise as scanners, sculptors and converters make it, drawn at random for training."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .sample_mesh import SampleMesh
+
+Draw = Callable[[SampleMesh, np.random.Generator], tuple[NDArray[np.float64], float]]
+"""`draw(mesh, rng)` returns noisy positions, shape (N, 3), and how wide their noise is, for the net's input
+*width*: -1 fine, 1 wide, 0 neither."""
+
+
+def log_uniform(rng: np.random.Generator, low: float, high: float) -> float:
+    """Return a number whose logarithm is uniform."""
+    return float(np.exp(rng.uniform(np.log(low), np.log(high))))
+
+
+def _unit(mesh: SampleMesh, rng: np.random.Generator) -> NDArray[np.float64]:
+    """Return the unit of length at each vertex, shape (N,): the mean edge of the mesh or of the place."""
+    return mesh.local_edge if rng.random() < 0.5 else np.full(mesh.n_vertices, mesh.mean_edge)
+
+
+def _standard(field: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return a field with mean square 1."""
+    return field / max(float(np.sqrt((field * field).mean())), 1e-12)
+
+
+def _along_normals(
+    mesh: SampleMesh, heights: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    return mesh.vertices + mesh.vertex_normals * heights[:, None]
+
+
+def _wide(mesh: SampleMesh, rng: np.random.Generator, n_averages: int) -> NDArray[np.float64]:
+    """Return white noise that is averaged with the ring, of mean square 1, shape (N,)."""
+    return _standard(mesh.averaged(rng.normal(size=mesh.n_vertices), n_averages))
+
+
+def white(mesh: SampleMesh, rng: np.random.Generator) -> tuple[NDArray[np.float64], float]:
+    """Gaussian along the normals."""
+    sigma = log_uniform(rng, 0.02, 1.1)
+    return _along_normals(mesh, sigma * _unit(mesh, rng) * rng.normal(size=mesh.n_vertices)), -1
+
+
+def directions(mesh: SampleMesh, rng: np.random.Generator) -> tuple[NDArray[np.float64], float]:
+    """Gaussian lengths in random directions, or Gaussian in all coordinates."""
+    sigma = log_uniform(rng, 0.03, 0.6)
+    step = rng.normal(size=(mesh.n_vertices, 3))
+    if rng.random() < 0.6:
+        step *= (rng.normal(size=mesh.n_vertices) / np.linalg.norm(step, axis=1))[:, None]
+    else:
+        sigma *= 0.6
+    return mesh.vertices + sigma * _unit(mesh, rng)[:, None] * step, -1
+
+
+def correlated(mesh: SampleMesh, rng: np.random.Generator) -> tuple[NDArray[np.float64], float]:
+    """Smooth over 1 to 12 rings, half of it together with white noise."""
+    n_averages = round(log_uniform(rng, 1, 100))
+    sigma = log_uniform(rng, 0.04, 0.35) * min(1.0 + 0.03 * n_averages, 2.0)
+    heights = sigma * _wide(mesh, rng, n_averages)
+    if rng.random() < 0.5:
+        heights += log_uniform(rng, 0.02, 0.3) * rng.normal(size=mesh.n_vertices)
+    return _along_normals(mesh, heights * _unit(mesh, rng)), 1
+
+
+def uneven(mesh: SampleMesh, rng: np.random.Generator) -> tuple[NDArray[np.float64], float]:
+    """White or somewhat smooth noise whose strength varies, smoothly or in steps."""
+    place = mesh.direction(rng)
+    if rng.random() < 0.4:
+        low = 0.0 if rng.random() < 0.5 else log_uniform(rng, 0.02, 0.2)
+        level = np.where(place > rng.uniform(-0.6, 0.6), log_uniform(rng, 0.08, 0.8), low)
+    else:
+        wave = np.sin(rng.uniform(1, 6) * place + rng.uniform(0, 6.3)) * rng.uniform(0.5, 2.0)
+        level = log_uniform(rng, 0.05, 0.4) * np.exp(wave)
+    is_white = rng.random() < 0.75
+    grain = rng.normal(size=mesh.n_vertices) if is_white else _wide(mesh, rng, int(rng.integers(1, 12)))
+    return _along_normals(mesh, level * grain * _unit(mesh, rng)), -1.0 if is_white else 1.0
+
+
+def impulsive(mesh: SampleMesh, rng: np.random.Generator) -> tuple[NDArray[np.float64], float]:
+    """Noise at some of the vertices only."""
+    is_hit = rng.random(mesh.n_vertices) < log_uniform(rng, 0.01, 0.65)
+    sigma = log_uniform(rng, 0.1, 1.2)
+    step = rng.normal(size=mesh.n_vertices) * sigma * is_hit * _unit(mesh, rng)
+    if rng.random() < 0.75:
+        return _along_normals(mesh, step), -1
+    direction = rng.normal(size=(mesh.n_vertices, 3))
+    direction /= np.linalg.norm(direction, axis=1, keepdims=True)
+    return mesh.vertices + step[:, None] * direction, -1
+
+
+def spikes(mesh: SampleMesh, rng: np.random.Generator) -> tuple[NDArray[np.float64], float]:
+    """A few vertices far off, on a surface that is clean or a little noisy."""
+    is_hit = rng.random(mesh.n_vertices) < log_uniform(rng, 5e-4, 0.02)
+    height = rng.uniform(2, 12, mesh.n_vertices) * rng.choice([-1, 1], mesh.n_vertices) * is_hit
+    if rng.random() < 0.6:
+        height += log_uniform(rng, 0.02, 0.3) * rng.normal(size=mesh.n_vertices)
+    return _along_normals(mesh, height * mesh.local_edge), -1
+
+
+def quantized(mesh: SampleMesh, rng: np.random.Generator) -> tuple[NDArray[np.float64], float]:
+    """Coordinates in whole steps, along one axis (terraces) or all of them, with a little noise or none."""
+    step = log_uniform(rng, 0.15, 1.6) * mesh.mean_edge
+    positions = mesh.vertices + mesh.offset(rng) * step
+    if rng.random() < 0.4:
+        grain = log_uniform(rng, 0.02, 0.15) * mesh.mean_edge * rng.normal(size=mesh.n_vertices)
+        positions = positions + mesh.vertex_normals * grain[:, None]
+    axes = rng.random() < 0.5
+    turned = positions @ (turn := mesh.rotation(rng))
+    chosen = slice(None) if axes else slice(2, 3)
+    turned[:, chosen] = np.round(turned[:, chosen] / step) * step
+    return turned @ turn.T - mesh.last_offset * step, 0
+
+
+def stairs(mesh: SampleMesh, rng: np.random.Generator) -> tuple[NDArray[np.float64], float]:
+    """Steps of voxels: marching cubes of a volume that knows inside and outside only."""
+    if mesh.stairs is None:
+        return quantized(mesh, rng)
+    positions = mesh.stairs
+    if rng.random() < 0.5:
+        grain = log_uniform(rng, 0.02, 0.3) * mesh.mean_edge * rng.normal(size=mesh.n_vertices)
+        positions = positions + mesh.vertex_normals * grain[:, None]
+    return positions, 0
+
+
+def range_image(mesh: SampleMesh, rng: np.random.Generator) -> tuple[NDArray[np.float64], float]:
+    """Errors along the line of sight, larger at grazing angles, a little smooth."""
+    view = mesh.rotation(rng)[:, 0]
+    grazing = 1.0 / np.maximum(np.abs(mesh.vertex_normals @ view), 0.2)
+    sigma = log_uniform(rng, 0.02, 0.25)
+    n_averages = int(rng.integers(0, 6))
+    grain = _wide(mesh, rng, n_averages) if n_averages else rng.normal(size=mesh.n_vertices)
+    step = sigma * grazing ** rng.uniform(0, 1) * grain * _unit(mesh, rng)
+    return mesh.vertices + step[:, None] * view, 1.0 if n_averages > 1 else -1.0
+
+
+def none(mesh: SampleMesh, rng: np.random.Generator) -> tuple[NDArray[np.float64], float]:
+    """No noise, or too little to see."""
+    sigma = 0.0 if rng.random() < 0.5 else log_uniform(rng, 0.003, 0.03)
+    return _along_normals(mesh, sigma * mesh.mean_edge * rng.normal(size=mesh.n_vertices)), 0
+
+
+MIXTURE: dict[Draw, float] = {
+    white: 0.28,
+    directions: 0.09,
+    correlated: 0.17,
+    uneven: 0.12,
+    impulsive: 0.12,
+    spikes: 0.04,
+    quantized: 0.03,
+    stairs: 0.03,
+    range_image: 0.07,
+    none: 0.05,
+}
+"""How often each kind is drawn."""
+
+
+def draw(mesh: SampleMesh, rng: np.random.Generator) -> tuple[NDArray[np.float64], float, str]:
+    """Return noisy positions (N, 3), how wide the noise is, and the name of its kind."""
+    kinds = list(MIXTURE)
+    shares = np.array(list(MIXTURE.values()))
+    if mesh.stairs is not None:
+        shares[kinds.index(stairs)] *= 6
+    kind = kinds[rng.choice(len(kinds), p=shares / shares.sum())]
+    positions, width = kind(mesh, rng)
+    return positions, width, kind.__name__

@@ -1,0 +1,120 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which families there are, how often each is drawn, and how a drawn mesh is finished."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .islands import make_islands
+from .marching import make_marching
+from .mesh import Mesh, bends, condition, flipped, select_faces, volume
+from .noise import chance, log_uniform, random_rotation
+from .organic import make_organic
+from .parts import make_part
+from .plates import make_plate
+from .quads import make_quads
+from .shells import make_shell
+from .sweeps import make_sweep
+from .terrain import make_terrain
+from .uneven import make_uneven
+
+FAMILIES = {
+    "part": (make_part, 2.0),
+    "organic": (make_organic, 2.5),
+    "plate": (make_plate, 1.0),
+    "sweep": (make_sweep, 1.0),
+    "quads": (make_quads, 2.2),
+    "terrain": (make_terrain, 1.0),
+    "shell": (make_shell, 1.0),
+    "uneven": (make_uneven, 1.0),
+    "islands": (make_islands, 1.0),
+    "marching": (make_marching, 1.0),
+}
+"""Name of a family: its function and its weight."""
+
+N_TRIES = 6
+LEAST_FACES = 3000
+MOST_FACES = 26000
+
+
+def family_of(index: int) -> str:
+    """Return the family of a mesh, interleaved so that any run of meshes is a fair mixture."""
+    names = list(FAMILIES)
+    weights = np.array([weight for _, weight in FAMILIES.values()])
+    weights = weights / weights.sum()
+    # The golden ratio visits the unit interval evenly.
+    place = (index * 0.6180339887498949 + 0.5) % 1
+    return names[min(int(np.searchsorted(np.cumsum(weights), place)), len(names) - 1)]
+
+
+def _target(rng) -> int:
+    return int(log_uniform(rng, 6000, 14000) if chance(rng, 0.8) else log_uniform(rng, 4200, 22000))
+
+
+def _without_loose_vertices(mesh: Mesh) -> Mesh:
+    used = np.unique(mesh.corner_vertex)
+    if len(used) < len(mesh.vertices):
+        mesh = select_faces(mesh, np.ones(mesh.n_faces, bool))
+    return mesh
+
+
+def problem(mesh: Mesh) -> str:
+    """Say why a mesh is no good, or nothing."""
+    if not np.isfinite(mesh.vertices).all():
+        return "not finite"
+    if not LEAST_FACES <= mesh.n_faces <= MOST_FACES:
+        return f"{mesh.n_faces} faces"
+    state = condition(mesh)
+    if state.non_manifold:
+        return f"{state.non_manifold} non-manifold edges"
+    if state.pinched > 8:
+        return f"{state.pinched} pinched vertices"
+    if state.degenerate > 0.002 * mesh.n_faces:
+        return f"{state.degenerate} degenerate faces"
+    bend = bends(mesh)
+    if (bend > 150).mean() > 0.004 or (bend > 172).mean() > 0.001:
+        return f"{(bend > 150).sum() // 2} folded edges"
+    return ""
+
+
+def make(seed: int, index: int) -> tuple[Mesh, str]:
+    """Make one mesh; it depends on the two numbers only.
+
+    Parameters
+    ----------
+    seed, index : int
+
+    Returns
+    -------
+    Mesh
+    str
+        The family.
+    """
+    kind = family_of(index)
+    reason = ""
+    for attempt in range(N_TRIES):
+        rng = np.random.default_rng([seed, index, attempt])
+        try:
+            mesh = _without_loose_vertices(FAMILIES[kind][0](rng, _target(rng)))
+            mesh = _finished(rng, mesh)
+            reason = problem(mesh)
+        except Exception as error:  # a tool that gives up on one shape must not stop the others
+            reason = f"{type(error).__name__}: {error}"
+        if not reason:
+            return mesh, kind
+    raise ValueError(f"{kind}: {reason}")
+
+
+def _finished(rng, mesh: Mesh) -> Mesh:
+    """Stretch, turn and scale a mesh, with its faces outward."""
+    points = mesh.vertices - (mesh.vertices.max(0) + mesh.vertices.min(0)) / 2
+    if chance(rng, 0.5):
+        axes = random_rotation(rng)
+        points = points @ axes @ np.diag(np.exp(rng.uniform(-0.3, 0.3, 3))) @ axes.T
+    points = points @ random_rotation(rng).T
+    points = points * (log_uniform(rng, 0.01, 1000) / np.ptp(points, axis=0).max())
+    mesh = mesh.moved(points)
+    if condition(mesh).border == 0 and volume(mesh) < 0:
+        mesh = flipped(mesh)
+    return mesh

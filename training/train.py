@@ -1,0 +1,161 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Train the net: on whole meshes, with noise that is drawn anew each time, both passes at once.
+
+A run that was cut off goes on from its last checkpoint.
+"""
+
+from __future__ import annotations
+
+import time
+from collections import defaultdict
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import torch
+from core.learned.features import Features
+from core.learned.scales import Scales
+from numpy.typing import NDArray
+
+from . import noise
+from .net import Net
+from .sample_mesh import SampleMesh
+
+LARGEST_RATE = 0.006
+CHECKPOINT_SECONDS = 120
+VALIDATION_STEPS = 1500
+LOSS_FLOOR = 0.004
+MOST_FACES = 20_000
+
+
+class Draw:
+    """A clean mesh with noise."""
+
+    def __init__(self, mesh: SampleMesh, rng: np.random.Generator, *, is_told: bool | None = None) -> None:
+        positions, width, self.kind = noise.draw(mesh, rng)
+        is_told = rng.random() < 0.4 if is_told is None else is_told
+        self.mesh, self.width = mesh, width if is_told else 0.0
+        self.points = np.ascontiguousarray(positions.T, np.float32)
+        self.wanted = torch.from_numpy(np.ascontiguousarray(mesh.normals.T))
+        cluster = mesh.clusters(rng)
+        self.is_counted = torch.from_numpy(cluster >= 0)
+        self.cluster = torch.from_numpy(cluster[cluster >= 0])
+        self.n_faces = torch.bincount(self.cluster).clamp(min=1).float()
+
+    def described(self, normals: NDArray[np.float32] | None = None) -> tuple[Scales, Features]:
+        """Return what the net sees: of the noisy mesh, or of the mesh that fits wanted normals (3, F)."""
+        points = self.points
+        if normals is not None:
+            points = self.mesh.engine.fit.fit(points, normals)
+        return self.mesh.engine.describe(points, 0.0, self.width)
+
+    def loss(self, normals: torch.Tensor) -> torch.Tensor:
+        """Return the mean over clusters of log(mean |n - n*| + floor)."""
+        apart = (normals - self.wanted)[self.is_counted].norm(dim=1)
+        total = torch.zeros(len(self.n_faces)).index_add(0, self.cluster, apart)
+        return torch.log(total / self.n_faces + LOSS_FLOOR).mean()
+
+
+def both_passes(net: Net, draw: Draw, weights: Sequence[float]) -> tuple[float, float]:
+    """Add the gradients of both passes, if they are wanted, and return both losses."""
+    losses = []
+    found = None
+    for weight in weights:
+        scales, features = draw.described(found)
+        normals = net(scales, features, draw.mesh.engine)
+        loss = draw.loss(normals)
+        if torch.is_grad_enabled():
+            (weight * loss).backward()
+        losses.append(float(loss.detach()))
+        found = np.ascontiguousarray(normals.detach().numpy().T)
+    return losses[0], losses[-1]
+
+
+def standardize(net: Net, draws: Sequence[Draw]) -> None:
+    """Set means and deviations of the inputs to those of some draws."""
+    found = [draw.described()[1] for draw in draws]
+    for name, parts in (
+        ("face", [item.faces for item in found]),
+        ("edge", [item.pairs[:-1] for item in found]),
+    ):
+        rows = np.concatenate([part[:: max(1, len(part) // 2000)] for part in parts])
+        getattr(net, f"{name}_mean").copy_(torch.from_numpy(rows.mean(axis=0)))
+        getattr(net, f"{name}_scale").copy_(torch.from_numpy(np.maximum(rows.std(axis=0), 0.05)))
+
+
+def validate(net: Net, draws: Sequence[Draw]) -> tuple[float, str]:
+    """Return the mean loss of the second pass, and the losses of each kind of noise as text."""
+    by_kind = defaultdict(list)
+    with torch.no_grad():
+        for draw in draws:
+            by_kind[draw.kind].append(both_passes(net, draw, (1, 1))[1])
+    text = " ".join(f"{kind} {np.mean(values):.2f}" for kind, values in sorted(by_kind.items()))
+    return float(np.mean([value for values in by_kind.values() for value in values])), text
+
+
+def train(shapes: Path, output: Path, seconds: float, seed: int, warm_start: Path | None = None) -> None:
+    """Train for some seconds of wall time, in all runs together; checkpoints and a log go to `output`."""
+    torch.set_num_threads(1)
+    output.mkdir(parents=True, exist_ok=True)
+    checkpoint = output / "checkpoint.pt"
+    torch.manual_seed(seed)
+    rng = np.random.default_rng(seed)
+    paths = sorted(shapes.glob("*.npz"))
+    held_out = [path for path in paths if int(path.stem) % 20 == 0]
+    meshes: dict[Path, SampleMesh] = {}
+    held = [SampleMesh.load(path) for path in held_out[:14]]
+    net = Net()
+    trial = np.random.default_rng(1000)
+    validation = [Draw(held[number % len(held)], trial, is_told=False) for number in range(42)]
+    optimizer = torch.optim.Adam(net.parameters(), lr=LARGEST_RATE, betas=(0.9, 0.98))
+    elapsed, step = 0.0, 0
+    if checkpoint.exists():
+        state = torch.load(checkpoint, weights_only=False)
+        net.load_state_dict(state["net"])
+        optimizer.load_state_dict(state["optimizer"])
+        elapsed, step = state["elapsed"], state["step"]
+        rng = np.random.default_rng(seed + step)
+    elif warm_start is not None:
+        net.load_state_dict(torch.load(warm_start, weights_only=False)["net"])
+    else:
+        standardize(net, validation)
+    log = (output / "log.txt").open("a", buffering=1)
+    began, saved = time.perf_counter() - elapsed, time.perf_counter()
+    recent: list[tuple[float, float]] = []
+    while elapsed < seconds:
+        share = elapsed / seconds
+        rate = LARGEST_RATE * 0.5 * (1 + np.cos(np.pi * share)) * min(1.0, (step + 1) / 300)
+        for group in optimizer.param_groups:
+            group["lr"] = rate
+        if step % 200 == 0:
+            paths = [path for path in sorted(shapes.glob("*.npz")) if int(path.stem) % 20]
+        path = paths[rng.integers(len(paths))]
+        if path not in meshes:
+            meshes[path] = SampleMesh.load(path)
+        mesh = meshes[path]
+        if mesh.engine.graph.n_faces > MOST_FACES:
+            continue
+        optimizer.zero_grad()
+        has_two = share > 0.25 or rng.random() < 0.3
+        losses = both_passes(net, Draw(mesh, rng), (0.5, 1.0) if has_two else (1.0,))
+        if not all(map(np.isfinite, losses)):
+            print(f"{path.name} gave {losses}", file=log)
+            continue
+        torch.nn.utils.clip_grad_norm_(net.parameters(), 1.0)
+        optimizer.step()
+        recent.append(losses)
+        step += 1
+        elapsed = time.perf_counter() - began
+        if time.perf_counter() - saved > CHECKPOINT_SECONDS or elapsed >= seconds:
+            saved = time.perf_counter()
+            state = {"net": net.state_dict(), "optimizer": optimizer.state_dict()}
+            torch.save({**state, "elapsed": elapsed, "step": step}, checkpoint.with_suffix(".part"))
+            checkpoint.with_suffix(".part").replace(checkpoint)
+            first, second = np.mean(recent, axis=0)
+            print(f"{elapsed:6.0f} s step {step} loss {first:.3f} {second:.3f}", file=log)
+            recent.clear()
+        if step % VALIDATION_STEPS == 0 or elapsed >= seconds:
+            mean, text = validate(net, validation)
+            print(f"{elapsed:6.0f} s step {step} validation {mean:.4f}: {text}", file=log)
+    net.export(output / "weights.npz", steps=str(step), seed=str(seed))
