@@ -180,10 +180,16 @@ def read_vectors(obj: bpy.types.Object, name: str, domain: str) -> NDArray[np.fl
     return vectors
 
 
-def write_numbers(mesh: bpy.types.Mesh, name: str, values: NDArray[np.floating]) -> None:
-    """Write an attribute of numbers at the vertices, shape (N,), in the place of any of that name."""
+def write_numbers(obj: bpy.types.Object, name: str, values: NDArray[np.floating]) -> None:
+    """Write an attribute of numbers at the vertices, shape (N,), in the place of any of that name.
+
+    A vertex group of that name, which somebody made of it, stays instead: both cannot be.
+    """
     import numpy as np
 
+    mesh = obj.data
+    if name in obj.vertex_groups:
+        return
     attribute = mesh.attributes.get(name)
     if attribute is not None and (attribute.data_type, attribute.domain) != ("FLOAT", "POINT"):
         mesh.attributes.remove(attribute)

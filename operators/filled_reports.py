@@ -154,9 +154,7 @@ def _fill_belief(properties: BeliefMixin, measured: Collection[MeasuredReport]) 
     properties.width = max(belief.width for belief in beliefs)
 
 
-def _add_noise(
-    properties: FrameletEstimate, name: str, noise: NoiseEstimate, scale: float
-) -> FrameletNoise:
+def _add_noise(properties: FrameletEstimate, name: str, noise: NoiseEstimate, scale: float) -> FrameletNoise:
     """Add the noise of an object; `scale` is that of lengths in scene units."""
     entry = properties.objects.add()
     entry.name, entry.sigma, entry.sigma_edges = name, scale * noise.sigma, noise.sigma_edges

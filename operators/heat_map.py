@@ -46,7 +46,7 @@ def show_heat(
     )
     if kind.attribute:
         for obj, values in found.values():
-            band_storage.write_numbers(obj.data, kind.attribute, values)
+            band_storage.write_numbers(obj, kind.attribute, values)
     return colored
 
 

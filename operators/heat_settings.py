@@ -37,13 +37,12 @@ class HeatMixin(RangeMixin):
             (
                 "NOISE",
                 "Noise",
-                f"How strong the noise is that was removed, also as the attribute {NOISE}, for nodes and masks",
+                f"How strong the noise was that went, also as the attribute {NOISE}, for nodes and masks",
             ),
             (
                 "WIDTH",
                 "Noise Width",
-                f"How many edges wide that noise is, also as the attribute {NOISE_WIDTH}; 0 if it is different "
-                "at each vertex",
+                f"How many edges wide it was, also as the attribute {NOISE_WIDTH}; 0 if each vertex differs",
             ),
         ],
         options=set(),

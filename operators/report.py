@@ -35,7 +35,7 @@ def _share(name: str, description: str) -> Any:
 def _chosen(name: str) -> Any:
     """Return the property of a setting that a run took from the noise, in words."""
     return StringProperty(
-        name=name, description="What the last run took from the noise of this object; empty if it took nothing"
+        name=name, description="What the last run took from the noise of this object; empty for nothing"
     )
 
 
@@ -48,7 +48,7 @@ _STRONGEST = "Strength of the noise in its strongest tenth of the surface, in"
 
 
 class BeliefMixin:
-    """What automatic denoising took for noise; of several objects the extremes, and shares of all vertices."""
+    """What automatic denoising took for noise; of several objects extremes, and shares of all vertices."""
 
     has_belief: BoolProperty(
         name="Removed", description="The noise is what automatic denoising took away, not an estimate"
@@ -59,9 +59,7 @@ class BeliefMixin:
     sigma_high: _length("Strongest", f"{_STRONGEST} scene units")
     sigma_low_edges: _edges("Quietest in Edge Lengths", f"{_QUIETEST} mean edge lengths")
     sigma_high_edges: _edges("Strongest in Edge Lengths", f"{_STRONGEST} mean edge lengths")
-    width: _edges(
-        "Width", "Standard deviation of what smoothed the noise, in edge lengths; 0 if nothing did"
-    )
+    width: _edges("Width", "Standard deviation of what smoothed the noise, in edge lengths; 0 if nothing did")
     spikes: _share("Spikes", "Share of the vertices that were far off alone")
     clean: _share("Clean", "Share of the vertices that were clean, and stayed")
 

@@ -136,14 +136,14 @@ def length_text(scene: bpy.types.Scene, length: float) -> str:
 
 
 def range_text(low: float, high: float, scene: bpy.types.Scene | None = None) -> str:
-    """Return two numbers in words, as lengths of a scene if there is one; one if they are next to equal."""
+    """Return two numbers in words, as lengths of a scene if one is given; their mean if they are close."""
     from bpy.app.translations import pgettext_rpt as rpt_
 
     unit, size = ("", 1.0) if scene is None else _unit_of(scene, high)
+    if high <= 1.1 * low:  # beyond that two digits are enough to tell them apart
+        low = high = (low + high) / 2.0
     texts = [f"{value / size:.2g}" for value in (low, high)]
-    if texts[0] == texts[1]:
-        return texts[0] + unit
-    return rpt_("{low} to {high}").format(low=texts[0], high=texts[1]) + unit
+    return (rpt_("{low} to {high}").format(low=texts[0], high=texts[1]) if low < high else texts[1]) + unit
 
 
 def value_texts(scene: bpy.types.Scene, values: Sequence[float], unit: str = "LENGTH") -> list[str]:

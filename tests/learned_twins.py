@@ -19,6 +19,12 @@ def face_order(mesh):
     return sorted((f for f, size in enumerate(sizes) if size >= 3), key=lambda f: (sizes[f], f))
 
 
+def polygons_of(mesh):
+    """Return the corners of the faces of the graph."""
+    faces = faces_of(mesh)
+    return [faces[f] for f in face_order(mesh)]
+
+
 def pairs_of(mesh):
     """Return the pairs (f, g, edge) of faces of the graph across an edge of two vertices, f < g."""
     faces, named = faces_of(mesh), defaultdict(list)
@@ -86,7 +92,7 @@ def low_pass(mesh, k):
 def slow_scales(mesh):
     """Return normals (F, S, 3), centroids (F, S, 3), areas (F, S) and lengths (F,) of the faces of the graph."""
     surfaces = [mesh.vertices, *(low_pass(mesh, k) @ mesh.vertices for k in AVERAGES)]
-    faces = [faces_of(mesh)[f] for f in face_order(mesh)]
+    faces = polygons_of(mesh)
     vectors = np.array([[newell(points[face]) for points in surfaces] for face in faces])
     centroids = np.array([[points[face].mean(axis=0) for points in surfaces] for face in faces])
     areas = np.linalg.norm(vectors, axis=2)
@@ -106,7 +112,7 @@ def energy(value):
 def face_pairs_of(mesh, pairs):
     """Return, for each face of the graph, the pair of each of its edges, None where there is none."""
     by_edge = {edge: number for number, (_, _, edge) in enumerate(pairs)}
-    faces = [faces_of(mesh)[f] for f in face_order(mesh)]
+    faces = polygons_of(mesh)
     return [
         [by_edge.get(frozenset((v, face[(k + 1) % len(face)]))) for k, v in enumerate(face)] for face in faces
     ]
@@ -116,7 +122,7 @@ def slow_features(mesh, scales, log_strength=0.0, width=0.0, least_island=500):
     """Return the inputs of the net: of the faces of the graph, and of pairs in the order of `pairs_of`."""
     normals, centroids, areas, length = scales
     pairs = pairs_of(mesh)
-    faces = [faces_of(mesh)[f] for f in face_order(mesh)]
+    faces = polygons_of(mesh)
     jump = np.array([[energy(normals[g, k] - normals[f, k]) for k in range(3)] for f, g, _ in pairs])
     of_pairs = np.zeros((len(pairs), 7))
     for number, (f, g, _) in enumerate(pairs):
@@ -238,14 +244,16 @@ def fit_problem(mesh, normals, weights, normal_pull=0.006, tangent_pull=0.1):
     n = mesh.n_vertices
     form, gradient = np.zeros((3 * n, 3 * n)), np.zeros(3 * n)
     valence, mean = np.zeros(n), np.zeros((n, 3))
+    faces = faces_of(mesh)
     for f, normal, weight in zip(face_order(mesh), normals, weights, strict=True):
-        face = faces_of(mesh)[f]
+        face = faces[f]
         for v in face:
             row = np.zeros(3 * n)  # <n_f, v - c_f> as a linear form
             row[3 * v : 3 * v + 3] += normal
             for w in face:
                 row[3 * w : 3 * w + 3] -= normal / len(face)
-            form += 2 * weight * np.outer(row, row)
+            own = np.flatnonzero(row)
+            form[np.ix_(own, own)] += 2 * weight * np.outer(row[own], row[own])
             gradient += 2 * weight * (row @ mesh.vertices.ravel()) * row
             valence[v] += 1
             mean[v] += normal

@@ -115,18 +115,17 @@ def quantized(mesh: SampleMesh, rng: np.random.Generator) -> tuple[NDArray[np.fl
     turned = positions @ (turn := mesh.rotation(rng))
     chosen = slice(None) if axes else slice(2, 3)
     turned[:, chosen] = np.round(turned[:, chosen] / step) * step
-    return turned @ turn.T - mesh.last_offset * step, 0
+    return turned @ turn.T - mesh.last_offset * step, 1
 
 
-def stairs(mesh: SampleMesh, rng: np.random.Generator) -> tuple[NDArray[np.float64], float]:
-    """Steps of voxels: marching cubes of a volume that knows inside and outside only."""
-    if mesh.stairs is None:
-        return quantized(mesh, rng)
-    positions = mesh.stairs
-    if rng.random() < 0.5:
-        grain = log_uniform(rng, 0.02, 0.3) * mesh.mean_edge * rng.normal(size=mesh.n_vertices)
+def voxels(mesh: SampleMesh, rng: np.random.Generator) -> tuple[NDArray[np.float64], float]:
+    """Steps and noise of the volume that the mesh was extracted from, with a little noise or none."""
+    assert mesh.voxels is not None
+    positions = mesh.voxels
+    if rng.random() < 0.3:
+        grain = log_uniform(rng, 0.02, 0.2) * mesh.mean_edge * rng.normal(size=mesh.n_vertices)
         positions = positions + mesh.vertex_normals * grain[:, None]
-    return positions, 0
+    return positions, 1
 
 
 def range_image(mesh: SampleMesh, rng: np.random.Generator) -> tuple[NDArray[np.float64], float]:
@@ -154,19 +153,19 @@ MIXTURE: dict[Draw, float] = {
     impulsive: 0.12,
     spikes: 0.04,
     quantized: 0.03,
-    stairs: 0.03,
+    voxels: 0.2,
     range_image: 0.07,
     none: 0.05,
 }
-"""How often each kind is drawn."""
+"""How often each kind is drawn; voxels on meshes that have them."""
 
 
 def draw(mesh: SampleMesh, rng: np.random.Generator) -> tuple[NDArray[np.float64], float, str]:
     """Return noisy positions (N, 3), how wide the noise is, and the name of its kind."""
     kinds = list(MIXTURE)
     shares = np.array(list(MIXTURE.values()))
-    if mesh.stairs is not None:
-        shares[kinds.index(stairs)] *= 6
+    if mesh.voxels is None:
+        shares[kinds.index(voxels)] = 0
     kind = kinds[rng.choice(len(kinds), p=shares / shares.sum())]
     positions, width = kind(mesh, rng)
     return positions, width, kind.__name__

@@ -20,14 +20,17 @@ FACES_IN_CLUSTER = 700
 
 
 class SampleMesh:
-    """A clean mesh in mean edge lengths, around its center."""
+    """A clean mesh in mean edge lengths, around its center.
 
-    def __init__(self, surface: SurfaceMesh, stairs: NDArray[np.floating] | None = None) -> None:
+    `voxels` are its positions with the errors of the volume that it was extracted from, shape (N, 3), or None.
+    """
+
+    def __init__(self, surface: SurfaceMesh, voxels: NDArray[np.floating] | None = None) -> None:
         edge = mean_edge_length(surface)
         center = surface.vertices.mean(axis=0, dtype=np.float64)
         self.vertices = (surface.vertices - center) / edge
         self.surface = surface.with_vertices(self.vertices)
-        self.stairs = None if stairs is None else (stairs - center) / edge
+        self.voxels = None if voxels is None else (voxels - center) / edge
         connectivity = connect(self.surface)
         self.engine = FaceEngine(self.surface, connectivity, Blocks(1))
         self.mean_edge = 1.0
@@ -60,8 +63,8 @@ class SampleMesh:
                 if (np.diff(offset) == offset[1]).all()
                 else np.split(corners, offset[1:-1])
             )
-            stairs = file["stairs"].astype(np.float64) if "stairs" in file else None
-            return cls(SurfaceMesh.from_faces(file["vertices"].astype(np.float64), faces), stairs)
+            voxels = file["noisy"].astype(np.float64) if "noisy" in file else None
+            return cls(SurfaceMesh.from_faces(file["vertices"].astype(np.float64), faces), voxels)
 
     @property
     def n_vertices(self) -> int:

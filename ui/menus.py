@@ -7,6 +7,8 @@ Blender's search (F3) finds what stands in menus. So every operator stands in th
 
 from __future__ import annotations
 
+from itertools import chain
+
 import bpy
 
 from ..operators.add_noise import OBJECT_OT_framelet_add_noise
@@ -37,7 +39,7 @@ class VIEW3D_MT_framelet(bpy.types.Menu):
         copy_settings(scene.framelet, operator)
         layout.operator(OBJECT_OT_framelet_before_after.bl_idname)
         layout.separator()
-        for quantity, text, _ in BUTTONS:
+        for quantity, text, _ in chain.from_iterable(BUTTONS):
             operator = layout.operator(OBJECT_OT_framelet_heat_map.bl_idname, text=text)
             write_quietly(operator, "quantity", quantity)
             copy_values(scene.framelet_heat_map, operator, HEAT_NAMES)

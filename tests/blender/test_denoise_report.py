@@ -6,13 +6,16 @@ import re
 from dataclasses import replace
 
 import bpy
+import meshes
 import numpy as np
 import pytest
 from blender_objects import noisy_monkey, read, select_only
-from framelet.core import PRESETS, denoise, estimate_noise
-from framelet.operators import mesh_bridge
+from framelet.core import PRESETS, NoiseBelief, denoise, estimate_noise
+from framelet.operators import denoise_report, mesh_bridge
 from framelet.operators.denoise_job import MeasuredReport
 from framelet.operators.filled_reports import fill_report
+from framelet.operators.report import BeliefMixin
+from framelet.operators.scene_units import range_text
 
 
 def last_report():
@@ -65,18 +68,27 @@ def test_report_of_several_objects():
     assert not report.is_closed and report.volume_change < 0
 
 
-def test_noise_and_recipe_of_the_default():
+def test_noise_of_the_default():
     obj = noisy_monkey()
     core = denoise(mesh_bridge.read_surface(obj)).report
     obj.scale = (10, 10, -10)
     bpy.context.view_layer.update()
     bpy.ops.object.framelet_denoise()
     report = last_report()
-    assert report.has_noise and report.recipe == core.recipe != ""
+    assert report.has_noise and report.has_belief
     assert report.noise_sigma == pytest.approx(10 * core.noise.sigma) and core.noise.sigma > 0
     assert report.noise_sigma_edges == pytest.approx(core.noise.sigma_edges)
     assert report.is_impulsive == core.noise.is_impulsive
     assert report.parameters == ""
+    for end in ("low", "high"):
+        sigma = getattr(core.noise, f"sigma_{end}")
+        assert getattr(report, f"sigma_{end}") == pytest.approx(10 * sigma, rel=1e-5)
+        assert getattr(report, f"sigma_{end}_edges") == pytest.approx(sigma / core.mean_edge_length)
+    assert 0 < report.sigma_low < report.noise_sigma < report.sigma_high
+    assert report.width == pytest.approx(core.noise.width)
+    assert report.spikes == pytest.approx(100 * core.noise.spikes)
+    assert report.clean == pytest.approx(100 * core.noise.clean)
+    assert not report.is_clean and not report.is_off
 
 
 def test_noise_of_several_objects():
@@ -90,7 +102,44 @@ def test_noise_of_several_objects():
     squares = np.array([report.noise.sigma for report in reports]) ** 2
     report = last_report()
     assert report.noise_sigma == pytest.approx(np.sqrt((counts * squares).sum() / counts.sum()))
-    assert report.recipe == "; ".join(dict.fromkeys(report.recipe for report in reports))
+
+
+BELIEF = NoiseBelief(0.02, 0.2, 0.2, False, 0.02, 0.01, 0.04, 1.25, 0.01, 0.3)
+
+
+def measured(n_vertices, noise=BELIEF, strength=1.0, scale=1.0):
+    """Return what a run of AUTO reports, with a mean edge length of 0.1."""
+    bpy.ops.mesh.primitive_cube_add()
+    core = denoise(mesh_bridge.read_surface(bpy.context.object)).report
+    settings = core.settings.with_changes(strength=strength)
+    made = {"n_vertices": n_vertices, "mean_edge_length": 0.1, "noise": noise, "settings": settings}
+    return MeasuredReport(replace(core, **made), 0.1, 0.2, scale)
+
+
+def test_what_several_objects_had_of_noise_is_taken_together():
+    still = replace(BELIEF, sigma=0.0, sigma_low=0.0, sigma_high=0.0, width=0.0, spikes=0.0, clean=1.0)
+    strong = replace(BELIEF, sigma_low=0.03, sigma_high=0.08, width=3.0, spikes=0.0, clean=0.0)
+    report = last_report()
+    fill_report(report, {"A": measured(100), "B": measured(200, still), "C": measured(100, strong, scale=5)})
+    found = {name: getattr(report, name) for name in BeliefMixin.__annotations__}
+    assert found == pytest.approx(
+        {
+            "has_belief": True,
+            "is_off": False,
+            "is_clean": False,
+            "sigma_low": 0.01,
+            "sigma_high": 0.4,
+            "sigma_low_edges": 0.1,
+            "sigma_high_edges": 0.8,
+            "width": 3.0,
+            "spikes": 0.25,
+            "clean": 57.5,
+        }
+    )
+    fill_report(report, {"B": measured(200, still)})
+    assert report.is_clean and report.clean == 100 and report.sigma_high == report.width == 0
+    fill_report(report, {"B": measured(200, still, strength=0.0)})
+    assert report.is_off and not report.is_clean
 
 
 def test_a_run_without_noise_shows_none_of_an_earlier_one():
@@ -100,20 +149,61 @@ def test_a_run_without_noise_shows_none_of_an_earlier_one():
     bpy.ops.object.framelet_denoise(preset="TRI_2")
     report = last_report()
     assert not report.has_noise and not report.is_impulsive
-    assert (report.noise_sigma, report.noise_sigma_edges, report.recipe) == (0, 0, "")
+    assert (report.noise_sigma, report.noise_sigma_edges) == (0, 0)
+    assert not any(getattr(report, name) for name in BeliefMixin.__annotations__)
     assert obj.name not in bpy.context.window_manager.framelet_estimate.objects
 
 
-def test_the_sentence_names_noise_and_recipe(capfd):
+def test_the_sentence_names_the_range_of_the_noise(capfd):
     noisy_monkey()
     bpy.ops.object.framelet_denoise()
-    recipe = last_report().recipe
-    assert re.search(
-        rf"; noise [\d.]+ c?m \(\d\.\d{{3}} edge lengths(, impulsive)?\); used {re.escape(recipe)}\n",
-        capfd.readouterr().out,
+    found = re.search(
+        r"; noise ([\d.]+) to ([\d.]+) cm \(([\d.]+) to ([\d.]+) edge lengths\)", capfd.readouterr().out
     )
+    report = last_report()
+    expected = [100 * report.sigma_low, 100 * report.sigma_high]
+    expected += [report.sigma_low_edges, report.sigma_high_edges]
+    assert [float(text) for text in found.groups()] == pytest.approx(expected, rel=0.05)
     bpy.ops.object.framelet_denoise(preset="TRI_2")
     assert "; noise" not in capfd.readouterr().out
+    bpy.ops.object.framelet_denoise(preset="TRI_2", tuning="NOISE")
+    used = last_report().parameters
+    assert re.search(
+        rf"; noise [\d.]+ [cm]?m \(\d\.\d{{3}} edge lengths(, impulsive)?\); used {used}\n",
+        capfd.readouterr().out,
+    )
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({}, "; noise 0.01 to 0.04 (0.1 to 0.4 edge lengths), about 1.2 edges wide, 1 % spikes; 30 % was"),
+        (
+            {"width": 0.39},
+            "; noise 0.01 to 0.04 (0.1 to 0.4 edge lengths), 1 % spikes; 30 % was clean and stayed",
+        ),
+        ({"width": 0.0, "spikes": 0.0, "clean": 0.0}, "; noise 0.01 to 0.04 (0.1 to 0.4 edge lengths)"),
+        (
+            {"sigma_low": 0.04, "spikes": 0.0, "clean": 0.0, "width": 6},
+            "; noise 0.04 (0.4 edge lengths), about 6.0",
+        ),
+    ],
+)
+def test_the_sentence_says_what_there_is_to_say(changes, words):
+    scene = bpy.context.scene
+    scene.unit_settings.system = "NONE"
+    fill_report(last_report(), {"A": measured(100, replace(BELIEF, **changes))})
+    assert denoise_report._noise_words(scene, last_report()).startswith(words)
+
+
+def test_ranges_have_one_unit_and_end_where_they_begin():
+    scene = bpy.context.scene
+    assert range_text(0.00123, 0.0456, scene) == "0.12 to 4.6 cm"
+    assert range_text(0.00123, 0.0456) == "0.0012 to 0.046"
+    assert range_text(0.0451, 0.0452, scene) == "4.5 cm"
+    assert range_text(0.0, 0.0) == "0"
+    scene.unit_settings.system = "NONE"
+    assert range_text(0.00123, 0.0456, scene) == "0.0012 to 0.046"
 
 
 def test_parameters_that_were_taken_from_the_noise():
@@ -137,4 +227,28 @@ def test_a_clean_mesh_is_called_so(capfd):
     bpy.ops.mesh.primitive_cube_add()
     bpy.ops.object.framelet_denoise()
     assert "0 of 8 vertices moved" in (out := capfd.readouterr().out)
-    assert re.search(r"; noise 0 m \(0\.000 edge lengths\); clean already$", out, re.MULTILINE)
+    assert re.search(r" in [\d.]+ s; clean already$", out, re.MULTILINE)
+    assert last_report().is_clean and last_report().clean == 100
+
+
+def test_strength_zero_is_not_called_clean(capfd):
+    for make in (noisy_monkey, bpy.ops.mesh.primitive_cube_add):
+        make()
+        bpy.ops.object.framelet_denoise(strength=0.0)
+        assert re.search(r" in [\d.]+ s; Strength is 0$", capfd.readouterr().out, re.MULTILINE)
+        report = last_report()
+        assert report.is_off and not report.is_clean and report.n_moved == 0
+
+
+def test_the_choice_of_noise_reaches_the_engine(make_object, rng):
+    surface = meshes.noisy(meshes.triangle_torus(), rng)
+    results = []
+    for noise in ("AUTO", "FINE", "WIDE"):
+        obj = make_object(surface)
+        settings = PRESETS["AUTO"].settings.with_changes(noise=noise, passes=1)
+        expected = denoise(mesh_bridge.read_surface(obj), settings).vertices
+        bpy.ops.object.framelet_denoise(noise=noise, passes=1)
+        assert read(obj).tobytes() == expected.tobytes()
+        assert last_report().iterations == 1
+        results.append(expected.tobytes())
+    assert len(set(results)) == 3

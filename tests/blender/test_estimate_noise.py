@@ -7,7 +7,7 @@ import re
 import bpy
 import numpy as np
 import pytest
-from framelet.core import add_noise, denoise, estimate_noise
+from framelet.core import PRESETS, add_noise, denoise, estimate_noise
 from framelet.operators import mesh_bridge
 from framelet.operators.estimate_noise import estimate_object_noise
 from framelet.operators.scene_units import length_in_scene
@@ -49,7 +49,7 @@ def test_the_estimate_is_that_of_core_and_nothing_changes(make_noisy):
     assert entry.sigma == pytest.approx(expected.sigma) and expected.sigma > 0
     assert entry.sigma_edges == pytest.approx(expected.sigma_edges)
     assert entry.is_impulsive == expected.is_impulsive
-    assert not entry.is_denoised and entry.recipe == ""
+    assert not entry.is_denoised and not entry.has_belief
     assert mesh_bridge.read_surface(obj).vertices.tobytes() == surface.vertices.tobytes()
 
 
@@ -143,7 +143,20 @@ def test_denoising_fills_the_estimate(make_noisy):
     assert measured().keys() == ["Ball"]
     entry = measured()["Ball"]
     assert entry.sigma == pytest.approx(core.noise.sigma)
-    assert entry.is_denoised and entry.recipe == core.recipe != ""
+    assert entry.is_denoised and entry.has_belief
+    assert entry.sigma_low == pytest.approx(core.noise.sigma_low)
+    assert entry.sigma_high == pytest.approx(core.noise.sigma_high)
+    assert (entry.chosen_lambda, entry.chosen_mu) == ("", "")
+
+
+def test_denoising_by_the_noise_keeps_what_was_taken_from_it(make_noisy):
+    obj = make_noisy()
+    settings = PRESETS["TRI_2"].settings.with_changes(tuning="NOISE")
+    used = denoise(mesh_bridge.read_surface(obj), settings).report.settings
+    bpy.ops.object.framelet_denoise(preset="TRI_2", tuning="NOISE")
+    entry = measured()["Ball"]
+    assert entry.is_denoised and not entry.has_belief
+    assert (entry.chosen_lambda, entry.chosen_mu) == (f"{used.lambda_:.3g}", f"{used.mu:.3g}")
 
 
 @pytest.mark.parametrize(

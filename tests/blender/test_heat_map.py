@@ -8,8 +8,9 @@ import bpy
 import meshes
 import numpy as np
 import pytest
+from framelet.core import noise_field
 from framelet.core.metrics import compare
-from framelet.operators import mesh_bridge, run_memory
+from framelet.operators import band_storage, mesh_bridge, run_memory
 from framelet.operators.colormaps import DIVERGING, SEQUENTIAL, map_colors
 from framelet.operators.heat_values import heat_values
 
@@ -113,13 +114,96 @@ def test_angles_are_those_of_the_faces(torus):
     comparison = compare(surface.with_vertices(run.after), surface.with_vertices(run.before))
     assert angles.mean() == pytest.approx(comparison.mean_angle)
     bpy.ops.object.framelet_heat_map(quantity="ANGLE", range_rule="MAXIMUM")
-    assert shown().is_angle and not shown().is_signed and shown().minimum == 0
+    assert shown().unit == "ANGLE" and not shown().is_signed and shown().minimum == 0
     assert shown().maximum == pytest.approx(comparison.max_angle)
     attribute = torus.data.attributes["framelet_heat_map"]
     assert (attribute.data_type, attribute.domain) == ("FLOAT_COLOR", "CORNER")
     assert np.allclose(colors(torus), map_colors(SEQUENTIAL, angles / comparison.max_angle), atol=1e-5)
     # All corners of a face look the same.
     assert (np.ptp(colors(torus).reshape(-1, 3, 4), axis=1) == 0).all()
+
+
+def numbers(obj, name):
+    attribute = obj.data.attributes[name]
+    assert (attribute.data_type, attribute.domain) == ("FLOAT", "POINT")
+    values = np.empty(len(attribute.data), np.float32)
+    attribute.data.foreach_get("value", values)
+    return values
+
+
+@pytest.mark.parametrize("preset", ["AUTO", "TRI_2"])
+def test_the_noise_map_is_the_field_of_the_noise(make_object, rng, preset):
+    obj = make_object(meshes.noisy(meshes.triangle_torus(), rng), "Torus")
+    before = mesh_bridge.read_surface(obj)
+    bpy.ops.object.framelet_denoise(preset=preset)
+    field = noise_field(before, mesh_bridge.read_surface(obj).vertices)
+    for quantity, name, expected in (("NOISE", "", field.strength), ("WIDTH", "_width", field.width)):
+        assert np.array_equal(heat_values(obj, quantity).values, expected)
+        assert bpy.ops.object.framelet_heat_map(quantity=quantity) == {"FINISHED"}
+        assert np.array_equal(numbers(obj, f"framelet_noise{name}"), expected)
+        limit = np.percentile(expected, 98)
+        assert shown().maximum == pytest.approx(limit) and not shown().is_signed
+        assert np.allclose(colors(obj), map_colors(SEQUENTIAL, expected / (limit or 1.0)), atol=1e-5)
+    assert field.strength.min() > 0
+
+
+def test_a_bump_is_wide_noise_and_grain_is_not(make_object, rng):
+    obj = make_object(meshes.triangle_grid(21, 21), "Grid")
+    surface = mesh_bridge.read_surface(obj)
+    x, y, _ = surface.vertices.T
+    edge = compare(surface, surface).mean_edge_length
+    for heights, least, most in (
+        (np.sin(0.6 * x / edge) * np.sin(0.6 * y / edge), 1.0, 5.0),
+        (rng.normal(size=len(x)), 0.0, 0.4),
+    ):
+        moved = surface.vertices + np.stack([0 * x, 0 * x, 0.05 * edge * heights], axis=1).astype(np.float32)
+        bumpy = mesh_bridge.read_surface(obj)
+        write_and_remember(obj, bumpy.with_vertices(moved), surface.vertices)
+        assert least <= np.median(heat_values(obj, "WIDTH").values) <= most
+        assert np.median(heat_values(obj, "NOISE").values) == pytest.approx(
+            0.05 * edge * np.sqrt(np.mean(heights**2)), rel=0.2
+        )
+
+
+def test_the_noise_map_is_in_scene_units_and_its_width_in_edges(torus):
+    noise, width = (heat_values(torus, name).values for name in ("NOISE", "WIDTH"))
+    torus.scale, torus.rotation_euler = (-3, 3, 3), (1, 2, 3)
+    bpy.context.view_layer.update()
+    assert np.allclose(heat_values(torus, "NOISE").values, 3 * noise, rtol=1e-3)
+    assert np.allclose(heat_values(torus, "WIDTH").values, width, atol=1e-2)
+
+
+def test_the_noise_stays_as_a_mask_until_all_is_cleared(torus):
+    torus.data.attributes.new("framelet_noise", "INT", "FACE")  # as a script may have done
+    bpy.ops.object.framelet_heat_map(quantity="NOISE")
+    first = numbers(torus, "framelet_noise")
+    bpy.ops.object.framelet_denoise(preset="TRI_1")
+    second = numbers(torus, "framelet_noise")
+    assert not np.array_equal(first, second)
+    assert np.array_equal(second, heat_values(torus, "NOISE").values.astype(np.float32))
+    bpy.ops.object.framelet_heat_map(quantity="WIDTH")
+    assert bpy.ops.object.framelet_hide_colors() == {"FINISHED"}
+    assert not torus.data.color_attributes
+    assert np.array_equal(numbers(torus, "framelet_noise"), second)
+    bpy.ops.object.framelet_analyze()
+    assert np.array_equal(numbers(torus, "framelet_noise"), second)
+    assert bpy.ops.object.framelet_clear() == {"FINISHED"}
+    assert not [item for item in torus.data.attributes if item.name.startswith("framelet")]
+    assert not band_storage.has_traces(torus.data)
+
+
+def test_the_noise_becomes_a_vertex_group_that_stays(torus):
+    """A mesh cannot have an attribute and a vertex group of one name."""
+    bpy.ops.object.framelet_heat_map(quantity="NOISE")
+    values = numbers(torus, "framelet_noise")
+    torus.data.attributes.active = torus.data.attributes["framelet_noise"]
+    assert bpy.ops.geometry.attribute_convert(mode="VERTEX_GROUP") == {"FINISHED"}
+    weights = [group.weight for vertex in torus.data.vertices for group in vertex.groups]
+    assert np.allclose(weights, values)
+    bpy.ops.object.vertex_group_normalize()
+    assert bpy.ops.object.framelet_denoise(preset="TRI_1", vertex_group="framelet_noise") == {"FINISHED"}
+    assert bpy.ops.object.framelet_heat_map(quantity="NOISE") == {"FINISHED"}
+    assert "framelet_noise" not in torus.data.attributes and "framelet_noise" in torus.vertex_groups
 
 
 def test_faces_without_area_did_not_turn(make_object):
@@ -155,6 +239,10 @@ def test_fixed_ranges(torus):
     assert shown().maximum == pytest.approx(30)
     with pytest.raises(RuntimeError, match="The range is nan; it must be a length"):
         bpy.ops.object.framelet_heat_map(range_rule="FIXED", limit=float("nan"))
+    bpy.ops.object.framelet_heat_map(quantity="WIDTH", range_rule="FIXED", limit_edges=2.5)
+    assert shown().maximum == pytest.approx(2.5)
+    with pytest.raises(RuntimeError, match="The range is nan; it must be a width"):
+        bpy.ops.object.framelet_heat_map(quantity="WIDTH", range_rule="FIXED", limit_edges=float("nan"))
     with pytest.raises(RuntimeError, match="The range is nan; it must be an angle"):
         bpy.ops.object.framelet_heat_map(quantity="ANGLE", range_rule="FIXED", limit_angle=float("nan"))
 
@@ -162,7 +250,7 @@ def test_fixed_ranges(torus):
 def test_a_mesh_that_did_not_move_is_gray(make_object):
     obj = make_object(meshes.triangle_torus(), "Still")
     bpy.ops.object.framelet_denoise(preset="POSITIONS", lambda_=0.0)
-    for quantity in ("NORMAL", "LENGTH", "ANGLE"):
+    for quantity in ("NORMAL", "LENGTH", "ANGLE", "NOISE", "WIDTH"):
         assert bpy.ops.object.framelet_heat_map(quantity=quantity) == {"FINISHED"}
         assert np.isfinite(colors(obj)).all() and np.ptp(colors(obj)[:, :3]) < 1e-3
 

@@ -194,7 +194,7 @@ def test_labels_have_the_units_of_the_scene(torus):
 def test_all_labels_have_one_unit_and_are_true(system, scale, limit):
     units = bpy.context.scene.unit_settings
     units.system, units.scale_length = system, scale
-    labels = value_texts(bpy.context.scene, [-limit, -limit / 2, 0.0, limit / 2, limit], False)
+    labels = value_texts(bpy.context.scene, [-limit, -limit / 2, 0.0, limit / 2, limit])
     parts = [re.fullmatch(r"−?([\d.e+-]+?)( ?[^\d.e+-]*)", label).groups() for label in labels]
     numbers, suffixes = zip(*parts, strict=True)
     assert len(set(suffixes)) == 1
@@ -216,6 +216,13 @@ def test_angles_are_in_degrees(torus):
     assert title == "Angle change of faces"
     assert labels == ["0°", f"{highest / 2:.4g}°", f"{highest:.4g}°"]
     assert note == ""
+
+
+@pytest.mark.parametrize(("quantity", "title"), [("NOISE", "Noise"), ("WIDTH", "Noise width in edges")])
+def test_noise_is_a_length_and_its_width_is_in_edges(torus, quantity, title):
+    bpy.ops.object.framelet_heat_map(quantity=quantity, range_rule="FIXED", limit=0.04, limit_edges=2.5)
+    unit = " cm" if quantity == "NOISE" else ""
+    assert texts()[:2] == (title, [f"{number}{unit}" for number in ((0, 2, 4) if unit else (0, 1.25, 2.5))])
 
 
 def test_it_serves_bands_too(torus):

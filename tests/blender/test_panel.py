@@ -8,14 +8,10 @@ import bpy
 import framelet.ui
 import pytest
 from drawing import draw
-from framelet.core.automatic.finish import FINISHES
-from framelet.core.automatic.recipes import RECIPES
-from framelet.core.automatic.run_choice import Choice
 from framelet.core.settings import PRESETS
 from framelet.operators import setting_values
 from framelet.ui import panel, region_panel, report_panels
 from framelet.ui.layouts import FrameletPanel
-from framelet.ui.translations import german_reports
 
 
 def test_panels_are_registered_in_one_tab():
@@ -50,52 +46,54 @@ def test_the_button_carries_the_scene_settings():
     assert (values.preset, values.mu) == ("TRI_1", 4.0)
 
 
-def panel_lines(label, each, following):
-    """Return the labels of a panel between two others."""
-    labels = draw(each)["label"]
-    return labels[labels.index(label) + 1 : labels.index(following)]
-
-
 def test_last_run_before_and_after():
     assert draw(report_panels.VIEW3D_PT_framelet_last_run)["label"] == ["Nothing was denoised yet"]
     bpy.ops.mesh.primitive_monkey_add()
+    bpy.ops.object.framelet_add_noise(sigma=0.1)
     bpy.ops.object.framelet_denoise()
     labels = draw(report_panels.VIEW3D_PT_framelet_last_run)["label"]
     assert "Suzanne" in labels and "Open mesh" in labels
     assert re.fullmatch(r"[\d.]+ cm", labels[labels.index("RMS") + 1])
     assert re.fullmatch(r"\d+\.\d{3} edge lengths", labels[labels.index("RMS") + 3])
-    recipe = bpy.context.window_manager.framelet_report.recipe
-    lines = labels[labels.index("Chosen") + 1 : labels.index("Iterations")]
-    # A line each, as in the panel above: two recipes do not fit into one, nor does what follows.
-    names, _, finish = recipe.partition(" (")
-    words = [word for word in finish.rstrip(")").split(", ") if word]
-    shown = [line for line in lines if line]
-    of_names = shown[: len(shown) - len(words)]
-    assert " and ".join(of_names).replace(" and after ", " after ") == names != ""
-    assert shown[len(of_names) :] == words
-    assert lines == panel_lines("Chosen", panel.VIEW3D_PT_framelet, "Frame")
-    assert re.fullmatch(r"[\d.]+ c?m", labels[labels.index("Noise") + 1])
+    noise = labels.index("Noise")
+    assert re.fullmatch(r"[\d.]+ to [\d.]+ c?m", labels[noise + 1])
+    assert labels[noise + 2] == "" and re.fullmatch(r"[\d.]+ to [\d.]+ edges", labels[noise + 3])
+    assert labels[labels.index("Passes") + 1] == "2" and "Iterations" not in labels
     bpy.ops.object.framelet_denoise(preset="TRI_2")
     labels = draw(report_panels.VIEW3D_PT_framelet_last_run)["label"]
-    assert not {"Noise", "Chosen", "From Noise"} & set(labels)
+    assert not {"Noise", "Width", "Spikes", "Clean", "From Noise", "Passes"} & set(labels)
+    assert "Iterations" in labels
 
 
-def test_last_run_of_several_objects_has_lines_for_each():
-    bpy.ops.mesh.primitive_monkey_add()
+def test_the_noise_that_was_removed_has_a_line_for_what_there_is():
     report = bpy.context.window_manager.framelet_report
-    bpy.ops.object.framelet_denoise()
-    long = Choice(RECIPES[-2:], FINISHES[-1]).label
-    report.names, report.recipe = "A, B", "; ".join((long, RECIPES[0].label, "Clean already"))
+    bpy.context.scene.unit_settings.system = "NONE"
+
+    def rows(**values):
+        for name, value in values.items():
+            setattr(report, name, value)
+        return draw(
+            lambda drawn, context: report_panels.draw_belief(drawn.layout, context.scene, "Noise", report)
+        )["label"]
+
+    plain = ["Noise", "0.02 to 0.05", "", "0.1 to 0.25 edges"]
+    assert rows(sigma_low=0.02, sigma_high=0.05, sigma_low_edges=0.1, sigma_high_edges=0.25) == plain
+    assert rows(width=0.39) == plain
+    width, spikes, clean = ["Width", "about 3.2 edges"], ["Spikes", "0.5 %"], ["Clean", "33.3 % stayed"]
+    assert rows(width=3.21) == [*plain, *width]
+    assert rows(spikes=0.5) == [*plain, *width, *spikes]
+    assert rows(clean=100 / 3) == [*plain, *width, *spikes, *clean]
+    assert rows(is_clean=True) == ["Noise", "Clean already"]
+    assert rows(is_off=True) == ["Noise", "Strength is 0"]
+
+
+@pytest.mark.parametrize(("strength", "words"), [(1.0, "Clean already"), (0.0, "Strength is 0")])
+def test_panels_say_why_nothing_moved(strength, words):
+    bpy.ops.mesh.primitive_cube_add()
+    bpy.ops.object.framelet_denoise(strength=strength)
     labels = draw(report_panels.VIEW3D_PT_framelet_last_run)["label"]
-    lines = [line for line in labels[labels.index("Chosen") + 1 : labels.index("Iterations")] if line]
-    assert lines == [
-        *["Soft relief", "after smoothing 8", "Soft and coarse 32", "refined twice", "in place"],
-        *["Flat and sharp", "Clean already"],
-    ]
-    assert all(line in german_reports.TEXTS for line in lines)
-
-
-CHOSEN = ["Chosen", "Frame", "Levels", "Smoothing λ", "Penalty μ"]
+    assert labels[labels.index("Noise") + 1] == words and labels[labels.index("Passes") + 1] == "0"
+    assert draw(report_panels.VIEW3D_PT_framelet_noise)["label"] == ["Noise Before", words]
 
 
 def table(labels):
@@ -104,30 +102,12 @@ def table(labels):
 
 
 def test_the_automatic_panel_is_calm():
-    shown = draw(panel.VIEW3D_PT_framelet)
-    assert shown["prop"] == ["preset", "method", "strength"]
-    assert table(shown["label"]) == dict(zip(CHOSEN, ["At the next run", "–", "–", "–", "–"], strict=True))
-
-
-def test_the_automatic_panel_shows_grayed_what_the_run_chose():
-    bpy.ops.mesh.primitive_monkey_add()
-    bpy.ops.object.framelet_add_noise(sigma=0.1)
-    bpy.ops.object.framelet_denoise()
-    shown = draw(panel.VIEW3D_PT_framelet)
-    entry = bpy.context.window_manager.framelet_estimate.objects["Suzanne"]
-    rows = table(shown["label"])
-    assert [label for label in rows if label] == CHOSEN and shown["grayed"] == shown["label"]
-    assert bpy.context.window_manager.framelet_report.recipe.startswith(rows["Chosen"])
-    names = ("frame", "levels", "lambda", "mu")
-    assert [rows[label] for label in CHOSEN[1:]] == [
-        getattr(entry, f"chosen_{name}").partition("\n")[0] or "–" for name in names
-    ]
-    entry.chosen_recipe, entry.chosen_lambda = "Soft\nFlat and sharp", ""
-    labels = draw(panel.VIEW3D_PT_framelet)["label"]
-    assert labels[:4] == ["Chosen", "Soft", "", "Flat and sharp"]
-    assert labels[labels.index("Smoothing λ") + 1] == "–"
-    bpy.ops.mesh.primitive_cube_add()
-    assert table(draw(panel.VIEW3D_PT_framelet)["label"])["Chosen"] == "At the next run"
+    for _ in range(2):
+        shown = draw(panel.VIEW3D_PT_framelet)
+        assert shown["prop"] == ["preset", "method", "strength", "noise"] and shown["label"] == []
+        assert draw(panel.VIEW3D_PT_framelet_advanced)["prop"] == ["passes", "threads"]
+        bpy.ops.mesh.primitive_cube_add()
+        bpy.ops.object.framelet_denoise()
 
 
 @pytest.mark.parametrize("tuning", ["GIVEN", "NOISE"])
@@ -166,13 +146,15 @@ def test_the_noise_of_the_active_object_is_shown_once_it_is_measured():
     assert labels[0] == "Noise"
     assert re.fullmatch(r"[\d.]+ c?m", labels[1])
     assert re.fullmatch(r"\d\.\d{3} edge lengths", labels[3])
-    assert table(draw(panel.VIEW3D_PT_framelet)["label"])["Chosen"] == "At the next run"
-    bpy.ops.object.framelet_denoise()
-    assert draw(report_panels.VIEW3D_PT_framelet_noise)["label"][0] == "Noise Before"
     entry = bpy.context.window_manager.framelet_estimate.objects["Suzanne"]
     for is_impulsive in (True, False):
         entry.is_impulsive = is_impulsive
         assert ("Impulsive" in draw(report_panels.VIEW3D_PT_framelet_noise)["label"]) == is_impulsive
+    bpy.ops.object.framelet_denoise()
+    labels = draw(report_panels.VIEW3D_PT_framelet_noise)["label"]
+    last = draw(report_panels.VIEW3D_PT_framelet_last_run)["label"]
+    assert labels[0] == "Noise Before"
+    assert labels[1:] == last[last.index("Noise") + 1 : last.index("Passes")]
     bpy.context.scene.framelet.preset = "TRI_2"
     assert draw(panel.VIEW3D_PT_framelet)["label"] == []
     bpy.ops.mesh.primitive_cube_add()
@@ -181,6 +163,7 @@ def test_the_noise_of_the_active_object_is_shown_once_it_is_measured():
 
 def test_lengths_follow_the_units_of_the_scene():
     bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=3)
+    bpy.ops.object.framelet_add_noise()
     bpy.ops.object.framelet_denoise()
 
     def rms():

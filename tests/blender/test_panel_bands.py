@@ -149,7 +149,7 @@ def test_advanced_says_which_frames_do_not_fit():
         getattr(bpy.ops.mesh, shape)()
         shown = draw(panel.VIEW3D_PT_framelet_advanced)["icon"]
         assert shown == [(f"Not for this mesh: frames for {kind}", "INFO")]
-    bpy.context.scene.framelet.method = "NORMALS"
+    bpy.context.scene.framelet.method = "AUTO"
     assert draw(panel.VIEW3D_PT_framelet_advanced)["icon"] == []
 
 
@@ -157,16 +157,18 @@ def test_what_a_run_changed_is_shown_by_buttons_that_stay_pressed(make_object, r
     name = "object.framelet_{}".format
     obj = make_object(meshes.noisy(meshes.triangle_torus(), rng), "Torus")
     record = draw(see_panel.VIEW3D_PT_framelet_see)
-    expected = [name("before_after"), name("heat_map"), name("heat_map")]
+    expected = [name("before_after"), *[name("heat_map")] * 4]
     assert record["operator"] == expected and record["pressed"] == []
     bpy.ops.object.framelet_denoise(preset="TRI_2")
-    for quantity, first in (("NORMAL", True), ("ANGLE", False)):
+    quantities = ["NORMAL", "ANGLE", "NOISE", "WIDTH"]
+    for quantity in quantities:
         bpy.ops.object.framelet_heat_map(quantity=quantity)
         record = draw(see_panel.VIEW3D_PT_framelet_see)
-        both = [name("hide_colors"), name("heat_map")] if first else [name("heat_map"), name("hide_colors")]
-        assert record["operator"] == [name("before_after"), *both]
+        buttons = [name("hide_colors") if each == quantity else name("heat_map") for each in quantities]
+        assert record["operator"] == [name("before_after"), *buttons]
         assert record["pressed"] == [name("hide_colors")]
-        assert record[name("heat_map")].quantity == ("ANGLE" if first else "NORMAL")
+        last = [each for each in quantities if each != quantity][-1]
+        assert record[name("heat_map")].quantity == last
     obj.data.attributes.active_color_name = ""
     assert draw(see_panel.VIEW3D_PT_framelet_see)["pressed"] == []
     bpy.ops.mesh.primitive_cube_add()
@@ -185,5 +187,7 @@ def test_the_heat_map_takes_the_range_of_the_scene(make_object, rng, rule):
     values = record["object.framelet_heat_map"]
     assert (values.range_rule, values.percentile, values.limit) == (rule, 77.0, 0.5)
     bpy.ops.object.framelet_heat_map(quantity="ANGLE")
-    more = ["limit_angle"] if rule == "FIXED" else more
-    assert draw(see_panel.VIEW3D_PT_framelet_see)["prop"] == ["range_rule", *more]
+    for quantity, name in (("ANGLE", "limit_angle"), ("NOISE", "limit"), ("WIDTH", "limit_edges")):
+        bpy.ops.object.framelet_heat_map(quantity=quantity)
+        more = [name] if rule == "FIXED" else more
+        assert draw(see_panel.VIEW3D_PT_framelet_see)["prop"] == ["range_rule", *more]

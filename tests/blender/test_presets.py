@@ -58,7 +58,7 @@ def values():
 def test_a_saved_preset_brings_everything_back(preset_folder, preset):
     settings = scene_settings()
     settings.preset = preset
-    settings.lambda_, settings.strength, settings.sigma_n, settings.boundary = 0.77, 0.6, 0.44, "FREE"
+    settings.lambda_, settings.strength, settings.noise, settings.boundary = 0.77, 0.6, "FINE", "FREE"
     if preset == setting_values.CUSTOM:
         settings.method, settings.stencil, settings.levels = "POSITIONS", "MEAN", 3
     saved = values()

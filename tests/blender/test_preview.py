@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The live preview shows what Denoise would give, and applies it."""
 
+import threading
+
 import bpy
 import numpy as np
 import pytest
@@ -47,7 +49,8 @@ def test_all_methods(preset, settings):
         assert same(read_positions(obj.data), expected_for(surface, settings))
 
 
-def test_stencils_are_prepared_once(settings, monkeypatch):
+@pytest.mark.parametrize(("preset", "name"), [("POSITIONS", "lambda_"), ("AUTO", "strength")])
+def test_a_mesh_is_prepared_once(settings, monkeypatch, preset, name):
     from framelet.core.denoising import preparation_cache
 
     made, original = [], preparation_cache.prepare_again
@@ -60,10 +63,43 @@ def test_stencils_are_prepared_once(settings, monkeypatch):
     monkeypatch.setattr(preparation_cache, "prepare_again", prepare_again)
     noisy_monkey()
     session = turn_on()
-    for lambda_ in (0.1, 0.2, 0.3):
-        settings.lambda_ = lambda_
+    settings.preset = preset
+    settle(session)
+    assert False in made
+    made.clear()
+    for value in (0.3, 0.2, 0.1):
+        setattr(settings, name, value)
         settle(session)
-    assert made[0] is False and all(made[1:]) and len(made) >= 3
+        assert session.is_current
+    assert made == [True] * 3
+
+
+def test_the_last_result_is_shown_until_the_next_is_there(settings, monkeypatch):
+    """Nothing in between, and nothing that was not computed."""
+    go, original = threading.Event(), preview_session.compute
+    go.set()
+
+    def gated(job, callback=None, should_stop=None):
+        while not go.wait(0.005):
+            if should_stop():
+                break
+        return original(job, callback, should_stop)
+
+    monkeypatch.setattr(preview_session, "compute", gated)
+    settings.preset = "AUTO"
+    obj = noisy_monkey()
+    surface = mesh_bridge.read_surface(obj)
+    session = turn_on()
+    settle(session)
+    first = read_positions(obj.data)
+    go.clear()
+    settings.strength = 0.5
+    current_preview.tick_preview()
+    assert same(read_positions(obj.data), first)
+    assert not session.is_current and not bpy.ops.object.framelet_apply_preview.poll()
+    go.set()
+    settle(session)
+    assert session.is_current and same(read_positions(obj.data), expected_for(surface, settings))
 
 
 def test_apply_keeps_it_and_reports_it(settings):

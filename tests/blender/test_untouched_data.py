@@ -88,6 +88,7 @@ def rich_object(rng):
     """Give an object with data of every kind on its mesh."""
     bpy.ops.mesh.primitive_uv_sphere_add(segments=16, ring_count=9)
     obj = bpy.context.object
+    bpy.ops.object.framelet_add_noise()
     mesh = obj.data
     for domain in ("POINT", "EDGE", "FACE", "CORNER"):
         for kind in CUSTOM_TYPES:

@@ -44,9 +44,12 @@ def warnings(make_object, capfd):
             'The engine Positions (paper) does not use strength; give preset="AUTO" for one that does.',
         ),
         (
-            {"method": "NORMALS", "iterations": 7},
-            "The engine Normals (keeps features) does not use iterations; "
-            'give method="POSITIONS" for one that does.',
+            {"method": "BILATERAL", "lambda_": 0.7},
+            'The engine Bilateral does not use lambda_; give method="POSITIONS" for one that does.',
+        ),
+        (
+            {"preset": "TRI_2", "noise": "WIDE", "passes": 4},
+            'The engine Positions (paper) does not use noise, passes; give preset="AUTO" for one that does.',
         ),
         (
             {"preset": "TRI_2", "tuning": "NOISE", "lambda_": 0.4},
@@ -70,10 +73,11 @@ def test_what_has_no_effect_is_said(warnings, arguments, sentence):
     [
         {},
         {"strength": 0.5, "boundary": "FIXED", "threads": 1},
+        {"noise": "FINE", "passes": 1},
         {"preset": "TRI_2", "lambda_": 0.4, "mu": 2.0, "iterations": 3},
         {"preset": "BILATERAL", "iterations": 2, "sigma_c": 0.5},
         {"preset": "POSITIONS", "limit": "EDGES", "max_edges": 0.5},
-        {"preset": "TRI_2", "method": "NORMALS"},
+        {"preset": "TRI_2", "method": "BILATERAL"},
         {"preset": "CUSTOM", "method": "POSITIONS", "lambda_": 0.4},
     ],
 )

@@ -43,6 +43,7 @@ def main() -> int:
                 face_offset=mesh.face_offset.astype(np.int32),
                 corner_vertex=mesh.corner_vertex.astype(np.int32),
                 kind=kind,
+                **({} if mesh.noisy is None else {"noisy": mesh.noisy.astype(np.float32)}),
             )
         part.replace(path)
         print(f"{index:04d} {kind} {mesh.n_faces} faces, {time.process_time() - start:.1f} s", flush=True)

@@ -108,13 +108,17 @@ def make(seed: int, index: int) -> tuple[Mesh, str]:
 
 def _finished(rng, mesh: Mesh) -> Mesh:
     """Stretch, turn and scale a mesh, with its faces outward."""
-    points = mesh.vertices - (mesh.vertices.max(0) + mesh.vertices.min(0)) / 2
+    low, high = mesh.vertices.min(0), mesh.vertices.max(0)
+    change = np.eye(3)
     if chance(rng, 0.5):
         axes = random_rotation(rng)
-        points = points @ axes @ np.diag(np.exp(rng.uniform(-0.3, 0.3, 3))) @ axes.T
-    points = points @ random_rotation(rng).T
-    points = points * (log_uniform(rng, 0.01, 1000) / np.ptp(points, axis=0).max())
-    mesh = mesh.moved(points)
+        change = axes @ np.diag(np.exp(rng.uniform(-0.3, 0.3, 3))) @ axes.T
+    change = change @ random_rotation(rng).T
+    points = (mesh.vertices - (high + low) / 2) @ change
+    scale = log_uniform(rng, 0.01, 1000) / np.ptp(points, axis=0).max()
+    if mesh.noisy is not None:
+        mesh = mesh._replace(noisy=(mesh.noisy - (high + low) / 2) @ change * scale)
+    mesh = mesh.moved(points * scale)
     if condition(mesh).border == 0 and volume(mesh) < 0:
         mesh = flipped(mesh)
     return mesh

@@ -8,7 +8,7 @@ import numpy as np
 
 from .mesh import Mesh, largest_island
 from .noise import Noise, chance, log_uniform, random_rotation
-from .organic import random_field, surface_of
+from .organic import project, random_field, surface_of
 
 
 def _piece(rng):
@@ -98,9 +98,24 @@ def _body(rng):
 
 
 def make_marching(rng, target: int) -> Mesh:
-    """Extract a random field at the resolution that gives the number of faces."""
+    """Extract a random field at the resolution that gives the number of faces.
+
+    Half of the volumes are not exact: they know inside and outside only, more or less, or are noisy. The
+    clean vertices are those moved onto the exact field.
+    """
     field = [_body, _solid, _lattice][rng.choice(3, p=[0.45, 0.35, 0.2])](rng)
     low, high = np.full(3, -1.35), np.full(3, 1.35)
     coarse = surface_of(field, low, high, 32)
     resolution = int(np.clip(32 * np.sqrt(target / coarse.n_faces), 24, 130))
-    return largest_island(surface_of(field, low + rng.uniform(0, 0.03, 3), high, resolution))
+    low = low + rng.uniform(0, 0.03, 3)
+    if chance(rng, 0.5):
+        return largest_island(surface_of(field, low, high, resolution))
+    contrast = log_uniform(rng, 0.02, 1.5)
+    level = rng.choice([0.0, log_uniform(rng, 0.05, 0.5)])
+
+    def spoil(values, step):
+        heights = np.clip(values / step, -contrast, contrast)
+        return heights + min(level, 0.4 * contrast) * rng.normal(size=values.shape)
+
+    mesh = largest_island(surface_of(field, low, high, resolution, spoil))
+    return project(field, mesh, 8)._replace(noisy=mesh.vertices)

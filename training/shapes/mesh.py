@@ -11,11 +11,15 @@ from numpy.typing import NDArray
 
 
 class Mesh(NamedTuple):
-    """A polygon mesh: positions (N, 3), where faces start (F + 1,), and their vertices (C,)."""
+    """A polygon mesh: positions (N, 3), where faces start (F + 1,), and their vertices (C,).
+
+    `noisy`, shape (N, 3), are positions with the errors of what made the mesh, if it made any.
+    """
 
     vertices: NDArray[np.float64]
     face_offset: NDArray[np.int32]
     corner_vertex: NDArray[np.int32]
+    noisy: NDArray[np.float64] | None = None
 
     @property
     def n_faces(self) -> int:
@@ -114,7 +118,8 @@ def select_faces(mesh: Mesh, keep) -> Mesh:
     corners = mesh.corner_vertex[np.repeat(keep, sizes)]
     offset = np.concatenate([[0], np.cumsum(sizes[keep])]).astype(np.int32)
     used, corner_vertex = np.unique(corners, return_inverse=True)
-    return Mesh(mesh.vertices[used], offset, corner_vertex.ravel().astype(np.int32))
+    noisy = None if mesh.noisy is None else mesh.noisy[used]
+    return Mesh(mesh.vertices[used], offset, corner_vertex.ravel().astype(np.int32), noisy)
 
 
 def joined(meshes) -> Mesh:

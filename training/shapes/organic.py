@@ -225,8 +225,11 @@ def bust(rng) -> Field:
     return field
 
 
-def surface_of(field, low, high, resolution: int) -> Mesh:
-    """Extract the zero level of a function in a box, of so many samples along the longest side."""
+def surface_of(field, low, high, resolution: int, spoil=None) -> Mesh:
+    """Extract the zero level of a function in a box, of so many samples along the longest side.
+
+    `spoil(values, step)` changes the samples first.
+    """
     step = float((high - low).max()) / resolution
     axes = [
         np.arange(lo - 2 * step, hi + 2.5 * step, step, dtype=np.float32)
@@ -234,6 +237,8 @@ def surface_of(field, low, high, resolution: int) -> Mesh:
     ]
     grid = np.stack(np.meshgrid(*axes, indexing="ij"), -1)
     value = field(grid.reshape(-1, 3)).reshape(grid.shape[:3]).astype(np.float32)
+    if spoil is not None:
+        value = spoil(value, step).astype(np.float32)
     points, faces, _, _ = marching_cubes(value, 0.0, allow_degenerate=False)
     return from_faces(points * step + [axis[0] for axis in axes], faces)
 

@@ -136,15 +136,13 @@ TEXTS = {
     "Angle Change": "Winkeländerung",
     "Angle change of faces": "Winkeländerung der Flächen",
     "By how many degrees each face turned": "Um wie viel Grad sich jede Fläche drehte",
-    "How strong the noise is that was removed, also as the attribute framelet_noise, for nodes and masks": (
-        "Wie stark das entfernte Rauschen ist, auch als Attribut framelet_noise, für Nodes und Masken"
+    "How strong the noise was that went, also as the attribute framelet_noise, for nodes and masks": (
+        "Wie stark das entfernte Rauschen war, auch als Attribut framelet_noise, für Nodes und Masken"
     ),
     "Noise Width": "Rauschbreite",
     "Noise width in edges": "Rauschbreite in Kanten",
-    "How many edges wide that noise is, also as the attribute framelet_noise_width; 0 if it is different at each "
-    "vertex": (
-        "Wie viele Kanten breit dieses Rauschen ist, auch als Attribut framelet_noise_width; 0, wenn es an jedem "
-        "Punkt anders ist"
+    "How many edges wide it was, also as the attribute framelet_noise_width; 0 if each vertex differs": (
+        "Wie viele Kanten breit es war, auch als Attribut framelet_noise_width; 0, wenn jeder Punkt anders ist"
     ),
     "The width that gets the last color, in edge lengths: larger makes all colors paler": (
         "Die Breite mit der letzten Farbe, in Kantenlängen: größer macht alle Farben blasser"

@@ -47,8 +47,8 @@ TEXTS = {
     ),
     "Share of the vertices that were far off alone": "Anteil der Punkte, die allein weit ab lagen",
     "Share of the vertices that were clean, and stayed": "Anteil der Punkte, die sauber waren und blieben",
-    "What the last run took from the noise of this object; empty if it took nothing": (
-        "Was der letzte Lauf aus dem Rauschen dieses Objekts nahm; leer, wenn er nichts nahm"
+    "What the last run took from the noise of this object; empty for nothing": (
+        "Was der letzte Lauf aus dem Rauschen dieses Objekts nahm; leer, wenn nichts"
     ),
     # Tables
     "Nothing was denoised yet": "Noch nichts entrauscht",

@@ -35,6 +35,54 @@ def impulsive(surface: SurfaceMesh, seed: int, sigma: float) -> np.ndarray:
     return positions.astype(surface.vertices.dtype)
 
 
+def correlated(surface: SurfaceMesh, seed: int, n_averages: int, sigma: float = 0.2) -> np.ndarray:
+    """Return positions (N, 3) after noise along the normals that is averaged with the one-ring, n times.
+
+    Each time a vertex keeps half of its value and takes half of the mean of its neighbors. The result is
+    scaled to its root mean square.
+    """
+    rng = np.random.default_rng(seed)
+    heights = rng.normal(size=surface.n_vertices)
+    ends = np.concatenate((surface.edges, surface.edges[:, ::-1]))
+    valence = np.maximum(np.bincount(ends[:, 0], minlength=surface.n_vertices), 1)
+    for _ in range(n_averages):
+        around = np.bincount(ends[:, 0], heights[ends[:, 1]], surface.n_vertices) / valence
+        heights = 0.5 * (heights + around)
+    heights *= sigma * mean_edge_length(surface) / np.sqrt((heights**2).mean())
+    return (surface.vertices + heights[:, None] * vertex_normals(surface)).astype(surface.vertices.dtype)
+
+
+def half_of(surface: SurfaceMesh) -> np.ndarray:
+    """Return which vertices lie beyond the middle of the longest side, shape (N,), bool."""
+    axis = np.argmax(np.ptp(surface.vertices, axis=0))
+    return surface.vertices[:, axis] > np.median(surface.vertices[:, axis])
+
+
+def uneven(surface: SurfaceMesh, seed: int, weak: float, strong: float) -> np.ndarray:
+    """Return positions (N, 3) after weak Gaussian noise along the normals on one half, strong on the other."""
+    rng = np.random.default_rng(seed)
+    sigma = np.where(half_of(surface), strong, weak) * mean_edge_length(surface)
+    heights = sigma * rng.normal(size=surface.n_vertices)
+    return (surface.vertices + heights[:, None] * vertex_normals(surface)).astype(surface.vertices.dtype)
+
+
+def sparse(surface: SurfaceMesh, seed: int, share: float, sigma: float) -> np.ndarray:
+    """Return positions (N, 3) after Gaussian displacements along the normals of a share of the vertices."""
+    rng = np.random.default_rng(seed)
+    heights = rng.normal(0.0, sigma * mean_edge_length(surface), surface.n_vertices)
+    heights *= rng.random(surface.n_vertices) < share
+    return (surface.vertices + heights[:, None] * vertex_normals(surface)).astype(surface.vertices.dtype)
+
+
+def along_view(surface: SurfaceMesh, seed: int, sigma: float) -> np.ndarray:
+    """Return positions (N, 3) after the errors of a range image: along one axis, larger at grazing angles."""
+    rng = np.random.default_rng(seed)
+    view = np.array([0.36, 0.48, 0.8])
+    grazing = 1.0 / np.maximum(np.abs(vertex_normals(surface) @ view), 0.2)
+    length = rng.normal(0.0, sigma * mean_edge_length(surface), surface.n_vertices) * np.sqrt(grazing)
+    return (surface.vertices + length[:, None] * view).astype(surface.vertices.dtype)
+
+
 NOISES: Mapping[str, Callable[[SurfaceMesh, int], np.ndarray]] = {
     "normal 0.1": partial(along_normals, sigma=0.1),
     "normal 0.2": partial(along_normals, sigma=0.2),
@@ -43,5 +91,11 @@ NOISES: Mapping[str, Callable[[SurfaceMesh, int], np.ndarray]] = {
     "normal 0.7": partial(along_normals, sigma=0.7),
     "direction 0.2": partial(in_random_directions, sigma=0.2),
     "impulsive 0.5": partial(impulsive, sigma=0.5),
+    "correlated 1": partial(correlated, n_averages=1),
+    "correlated 2": partial(correlated, n_averages=2),
+    "correlated 4": partial(correlated, n_averages=4),
+    "uneven 0.05 0.25": partial(uneven, weak=0.05, strong=0.25),
+    "sparse 0.6": partial(sparse, share=0.2, sigma=0.6),
+    "view 0.15": partial(along_view, sigma=0.15),
 }
 """Functions that take a clean surface and a seed, by name and standard deviation."""

@@ -72,8 +72,8 @@ def test_options_without_effect_are_refused(key, item):
             "--strength has no effect with --preset bilateral; use --preset auto.",
         ),
         (
-            ["--preset", "tri-1", "--method", "normals", "--lambda", "1"],
-            "--lambda has no effect with --method normals; use --method positions.",
+            ["--preset", "tri-1", "--method", "auto", "--lambda", "1"],
+            "--lambda has no effect with --method auto; use --method positions.",
         ),
         (
             ["--preset", "tri-1", "--tuning", "noise", "--mu", "1"],

@@ -7,8 +7,9 @@ import json
 from dataclasses import fields
 
 import bpy
+import numpy as np
 import pytest
-from framelet.core import PRESETS, DenoiseReport, DenoiseSettings, NoiseEstimate, SurfaceMesh, denoise
+from framelet.core import PRESETS, DenoiseReport, DenoiseSettings, NoiseBelief, SurfaceMesh, denoise
 
 
 @pytest.fixture
@@ -31,23 +32,71 @@ def test_settings_can_be_used_again(report):
 def test_settings_that_were_used(report):
     (entry,) = report["objects"]
     assert entry["settings"] == report["settings"]
-    assert (entry["noise"], entry["recipe"]) == (None, "")
+    assert entry["noise"] is None
 
 
-def test_noise_and_what_was_chosen(command, grid, write_ply, tmp_path):
-    source = write_ply(tmp_path / "in.ply", grid.vertices, grid.faces)
-    options = ["--strength", "0.9", "--report", tmp_path / "report.json"]
-    result = command("denoise", source, tmp_path / "out.ply", *options)
-    assert result.code == 0
-    report = json.loads((tmp_path / "report.json").read_text(encoding="utf-8"))
-    (entry,) = report["objects"]
-    expected = denoise(SurfaceMesh.from_faces(grid.vertices, grid.faces)).report
-    assert report["preset"] == "AUTO"
-    assert DenoiseSettings(**entry["settings"]) == DenoiseSettings(method="AUTO", strength=0.9)
-    assert list(entry["noise"]) == [item.name for item in fields(NoiseEstimate)]
-    assert entry["noise"]["sigma_edges"] == pytest.approx(expected.noise.sigma_edges, rel=1e-4)
-    assert entry["recipe"] and f"chosen for it: {entry['recipe']}." in result.out
-    assert f"noise of {entry['noise']['sigma']:.4g} (" in result.out
+@pytest.fixture
+def denoised(command, write_ply, tmp_path):
+    """A function that denoises with the default preset; returns the output and the entry in the report."""
+
+    def run(vertices, faces, *options):
+        source = write_ply(tmp_path / "in.ply", vertices, faces)
+        result = command(
+            "denoise", source, tmp_path / "out.ply", *options, "--report", tmp_path / "report.json"
+        )
+        assert result.code == 0
+        report = json.loads((tmp_path / "report.json").read_text(encoding="utf-8"))
+        assert report["preset"] == "AUTO"
+        (entry,) = report["objects"]
+        return result.out, entry
+
+    return run
+
+
+def test_the_noise_that_was_removed(denoised, grid):
+    out, entry = denoised(grid.vertices, grid.faces, "--noise", "wide", "--strength", "0.9", "--passes", "1")
+    settings = DenoiseSettings(method="AUTO", noise="WIDE", strength=0.9, passes=1)
+    assert DenoiseSettings(**entry["settings"]) == settings
+    expected = denoise(SurfaceMesh.from_faces(grid.vertices, grid.faces), settings).report
+    noise = entry["noise"]
+    names = [item.name for item in fields(NoiseBelief)]
+    assert list(noise) == [*names, "sigma_low_edges", "sigma_high_edges", "is_clean"]
+    for name in names:
+        assert noise[name] == pytest.approx(getattr(expected.noise, name), rel=1e-4)
+    for end in ("low", "high"):
+        sigma = noise[f"sigma_{end}"]
+        assert noise[f"sigma_{end}_edges"] == pytest.approx(sigma / entry["mean_edge_length"]) and sigma > 0
+    assert noise["is_clean"] is False
+    assert ": 1 pass, " in out
+    low, high, in_edges = noise["sigma_low"], noise["sigma_high"], "sigma_{}_edges".format
+    assert f"  noise of {low:.3g} to {high:.3g} ({noise[in_edges('low')]:.3g} to " in out
+    assert f" {noise[in_edges('high')]:.3g} mean edge lengths)" in out
+    assert (" edges wide" in out) == (noise["width"] > 0.4)
+    assert (" % spikes" in out) == (noise["spikes"] > 0)
+    assert (" % was clean and stayed." in out) == (noise["clean"] > 0)
+
+
+def test_a_clean_mesh_and_strength_zero_have_words_of_their_own(denoised, grid):
+    flat = grid.used_vertices * np.float32([1, 1, 0])
+    out, entry = denoised(flat, grid.faces_of_used)
+    assert "\n  clean already.\n" in out and ": 0 passes, 0 vertices moved" in out
+    assert entry["noise"]["is_clean"] is True and entry["noise"]["clean"] == 1
+    out, entry = denoised(flat, grid.faces_of_used, "--strength", "0")
+    assert "\n  strength is 0, so that nothing moves.\n" in out and "clean already" not in out
+    assert entry["noise"]["is_clean"] is False
+
+
+def test_all_words_on_noise():
+    from types import SimpleNamespace
+
+    from framelet.operators.command_line.denoise import _describe_noise
+
+    noise = NoiseBelief(0.02, 0.2, 0.2, False, 0.02, 0.01, 0.04, 3.21, 0.012, 0.3)
+    report = SimpleNamespace(settings=PRESETS["AUTO"].settings, mean_edge_length=0.1)
+    assert _describe_noise(report, noise) == (
+        "  noise of 0.01 to 0.04 (0.1 to 0.4 mean edge lengths), about 3.2 edges wide, 1.2 % spikes; "
+        "30 % was clean and stayed."
+    )
 
 
 def test_versions_and_names(report, tmp_path):
