@@ -21,7 +21,7 @@ METHODS = (
     Choice(
         "AUTO",
         "Automatic",
-        "Learned shrinkage: cleans the directions of the faces, then fits the vertices to them; keeps features",
+        "Learned shrinkage: cleans the directions of the faces, then fits the vertices; keeps features",
     ),
     Choice("POSITIONS", "Positions (paper)", "Split Bregman on vertex positions with a tight wavelet frame"),
     Choice(
@@ -31,7 +31,9 @@ METHODS = (
 NOISES = (
     Choice("AUTO", "Automatic", "What the mesh shows; fine relief stays where it can be told from noise"),
     Choice("FINE", "Fine", "Different from vertex to vertex; what is wider is taken for relief"),
-    Choice("WIDE", "Wide", "Smooth over several edges, or steps of voxels and terraces; fine relief goes too"),
+    Choice(
+        "WIDE", "Wide", "Smooth over several edges, or steps of voxels and terraces; fine relief goes too"
+    ),
 )
 TUNINGS = (
     Choice("GIVEN", "As Set", "The values that are set"),

@@ -7,7 +7,7 @@ from framelet.core.surface.geometry import face_normals
 from framelet.core.surface.surface_mesh import SurfaceMesh
 from meshes import faces_of
 
-METHODS = ("TRI_2", "BILATERAL", "PRISMATIC", "AUTO")
+METHODS = ("TRI_2", "BILATERAL", "AUTO")
 """A preset of each method."""
 
 

@@ -148,7 +148,7 @@ class LogEnergy(torch.autograd.Function):
 
 
 class Diffuse(torch.autograd.Function):
-    """V_f + sum over the pairs of f of c_e g_e (V_g - V_f) / area_f, repeated with the same gains g (P, C)."""
+    """V_f + sum over the pairs of f of c_e g_e (V_g - V_f) / area_f, repeated with the same gains (P, C)."""
 
     @staticmethod
     def forward(ctx: Any, v: torch.Tensor, gain: torch.Tensor, pairs: Pairs, repeats: int) -> torch.Tensor:

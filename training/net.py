@@ -8,11 +8,12 @@ from pathlib import Path
 
 import numpy as np
 import torch
+from torch import nn
+
 from core.learned.engine import FaceEngine
 from core.learned.features import FLOOR, N_EDGE, N_FACE, Features
 from core.learned.net import HIDDEN, INPUT_HIDDEN, REPEATS, pair_weights
 from core.learned.scales import N_SCALES, Scales
-from torch import nn
 
 from .kernels import Diffuse, FaceSum, LogEnergy, Pairs, PairSum
 
@@ -94,5 +95,7 @@ class Net(nn.Module):
 
     def export(self, path: Path, **provenance: str) -> None:
         """Write all arrays to a file of NumPy, with where they come from."""
-        arrays = {name: value.detach().numpy().astype(np.float32) for name, value in self.state_dict().items()}
+        arrays = {
+            name: value.detach().numpy().astype(np.float32) for name, value in self.state_dict().items()
+        }
         np.savez_compressed(path, **arrays, **{key: np.array(text) for key, text in provenance.items()})

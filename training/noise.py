@@ -31,9 +31,7 @@ def _standard(field: NDArray[np.float64]) -> NDArray[np.float64]:
     return field / max(float(np.sqrt((field * field).mean())), 1e-12)
 
 
-def _along_normals(
-    mesh: SampleMesh, heights: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _along_normals(mesh: SampleMesh, heights: NDArray[np.float64]) -> NDArray[np.float64]:
     return mesh.vertices + mesh.vertex_normals * heights[:, None]
 
 

@@ -7,13 +7,14 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
 from core.blocks import Blocks
 from core.learned.engine import FaceEngine
 from core.surface.connectivity import connect
 from core.surface.geometry import face_area_vectors, mean_edge_length, unit_vectors, vertex_normals
 from core.surface.surface_mesh import SurfaceMesh
-from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 FACES_IN_CLUSTER = 700
 """Faces of a cluster: the loss is a mean of logarithms over clusters, so that each place counts alike."""
@@ -22,7 +23,7 @@ FACES_IN_CLUSTER = 700
 class SampleMesh:
     """A clean mesh in mean edge lengths, around its center.
 
-    `voxels` are its positions with the errors of the volume that it was extracted from, shape (N, 3), or None.
+    `voxels`, shape (N, 3), are its positions with the errors of the volume that it comes from, or None.
     """
 
     def __init__(self, surface: SurfaceMesh, voxels: NDArray[np.floating] | None = None) -> None:
@@ -47,9 +48,10 @@ class SampleMesh:
         self.normals = graph.in_graph_order(unit_vectors(areas).T).astype(np.float32)
         size = np.linalg.norm(areas, axis=1)
         self.is_counted = graph.in_graph_order(size > 1e-3 * np.median(size))
-        middle = np.add.reduceat(
-            self.vertices[self.surface.corner_vertex], self.surface.face_offset[:-1], axis=0
-        ) / self.surface.face_sizes()[:, None]
+        middle = (
+            np.add.reduceat(self.vertices[self.surface.corner_vertex], self.surface.face_offset[:-1], axis=0)
+            / self.surface.face_sizes()[:, None]
+        )
         self._centroids = graph.in_graph_order(middle.T).T
         self.last_offset = np.zeros(3)
 

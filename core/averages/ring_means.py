@@ -13,11 +13,11 @@ from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
-from .means import Means
-from .ragged import Ragged
 from ..surface.connectivity import Connectivity
 from ..surface.locality import stable_order
 from ..surface.surface_mesh import SurfaceMesh
+from .means import Means
+from .ragged import Ragged
 
 LEFT_OUT = 0.01
 """Terms at the end of a series that sum up to less than this are left out: bands need no digits."""
@@ -76,9 +76,7 @@ class RingMeans(Means):
         """Return A^k of a field, shape (N, C), numbered as inside; A = (1 + P) / 2. The field is used up."""
         return self._sums(field, [_power_series(n_averages)])[0]
 
-    def low_passes(
-        self, field: NDArray[np.floating], numbers: Sequence[int]
-    ) -> list[NDArray[np.floating]]:
+    def low_passes(self, field: NDArray[np.floating], numbers: Sequence[int]) -> list[NDArray[np.floating]]:
         """Return what the low-passes L_k = 2 A^k - A^2k change of a field, shape (N, C), for several k.
 
         Fields are numbered as inside. L_k - 1 = -(1 - A^k)^2 is applied as a series in P to P x - x, which is
@@ -130,7 +128,7 @@ class RingMeans(Means):
 
 @cache
 def _low_pass_series(n_averages: int) -> list[float]:
-    """Return the Chebyshev coefficients of g with L_k = 1 + g(P) (P - 1), without the small ones at the end."""
+    """Return the Chebyshev coefficients of g with L_k = 1 + g(P) (P - 1), the small ones left out."""
 
     def g(p: Any) -> Any:
         powers = (0.5 * (1.0 + p)) ** np.arange(n_averages)[:, None]
@@ -142,9 +140,11 @@ def _low_pass_series(n_averages: int) -> list[float]:
 @cache
 def _power_series(n_averages: int) -> list[float]:
     """Return the Chebyshev coefficients of A^k, the small ones left out, with sum 1."""
-    kept = _without_tail(
-        chebyshev.chebinterpolate(lambda p: (0.5 * (1.0 + p)) ** n_averages, n_averages), LEFT_OUT
-    )
+
+    def power(p: Any) -> Any:
+        return (0.5 * (1.0 + p)) ** n_averages
+
+    kept = _without_tail(chebyshev.chebinterpolate(power, n_averages), LEFT_OUT)
     return [coefficient / sum(kept) for coefficient in kept]
 
 

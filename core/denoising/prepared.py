@@ -185,8 +185,8 @@ def _prepare(
         normalized = normalize(ordered, connectivity, edge, blocks)
         transform = engine = None
         if settings.method == "AUTO":
-            is_known = previous is not None and previous.engine is not None
-            engine = previous.engine if is_known else FaceEngine(ordered, connectivity, blocks)
+            engine = None if previous is None else previous.engine
+            engine = engine or FaceEngine(ordered, connectivity, blocks)
         if settings.method == "POSITIONS":
             # Chosen on the normalized surface in full precision, so that rounding decides nothing.
             transform = make_transform(
@@ -208,7 +208,16 @@ def _prepare(
 
         blocks.run(turn, surface.n_vertices)
     return Prepared(
-        surface, reordering, connectivity, edge, noisy, corners, transform, engine, blocks, _key(settings, dtype)
+        surface,
+        reordering,
+        connectivity,
+        edge,
+        noisy,
+        corners,
+        transform,
+        engine,
+        blocks,
+        _key(settings, dtype),
     )
 
 

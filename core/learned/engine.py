@@ -9,15 +9,15 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from ..blocks import Blocks
 from ..averages.means import Means
 from ..averages.ragged import Ragged, faces_of_vertices
+from ..averages.ring_means import RingMeans
+from ..blocks import Blocks
 from ..surface.connectivity import Connectivity
 from ..surface.surface_mesh import SurfaceMesh
 from .face_graph import FaceGraph
 from .features import Features, find_features
 from .islands import find_islands
-from ..averages.ring_means import RingMeans
 from .net import Net
 from .scales import Scales, find_scales
 from .screened_fit import ScreenedFit, fan_areas

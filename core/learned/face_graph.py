@@ -70,7 +70,7 @@ class FaceGraph:
         size = surface.common_face_size()
         offset, corner_vertex, corner_edge = surface.face_offset, surface.corner_vertex, surface.corner_edge
         across = connectivity.face_across
-        self.order: NDArray[np.int32] | None = None
+        self.order: NDArray[np.integer] | None = None
         if size >= 3:
             sizes = np.array([size])
             counts = np.array([surface.n_faces])
@@ -111,7 +111,7 @@ class FaceGraph:
             begin, corner_begin = begin + count, part.stop
 
     def for_faces(self, kernel: Callable[[slice, Polygons], None]) -> None:
-        """Call `kernel(faces, polygons)` on threads: blocks of faces with as many corners, and their tables."""
+        """Call `kernel(faces, polygons)` on threads, for blocks of faces with as many corners."""
         parts = [
             (slice(start, min(start + FACES_AT_ONCE, group.end)), group)
             for group in self.groups
@@ -135,7 +135,7 @@ class FaceGraph:
         self.blocks.sized(1).run(run, len(parts))
 
     def for_pairs(self, kernel: Callable[[int, int], None]) -> None:
-        """Call `kernel(start, stop)` for blocks of pairs on threads; the last pair, without faces, is left out."""
+        """Call `kernel(start, stop)` on threads, for blocks of pairs, without the last."""
         self.blocks.run(kernel, self.n_pairs)
 
     def in_graph_order(self, field: NDArray) -> NDArray:

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..averages.means import Means
-from .face_graph import FaceGraph, Polygons
 from ..averages.ring_means import RingMeans
+from .face_graph import FaceGraph, Polygons
 from .scales import N_SCALES, Scales
 
 FLOOR = np.float32(1e-4)
@@ -47,8 +47,6 @@ class Features(NamedTuple):
         island.
     pairs : ndarray, shape (P + 1, N_EDGE), float32
         Distance, ratio of areas, bends and offsets across each edge; 0 for the pair without faces.
-    spread : slice
-        Which columns of `faces` are spread energies.
     """
 
     faces: NDArray[np.float32]
@@ -201,7 +199,7 @@ def _quantiles(
     log_strength: float,
     width: float,
 ) -> NDArray[np.float32]:
-    """Return quantiles over the island of each face, shape (F or 1, N_GLOBAL); exactly flat faces do not count."""
+    """Return quantiles over the island of each face, shape (F or 1, N_GLOBAL), without exactly flat faces."""
     if island is None:
         return _quantiles_of(energies, is_flat, log_strength, width)[None]
     sizes = np.bincount(island)

@@ -6,7 +6,7 @@ The state of a face is its normal V at all scales and a few scalars s that do no
 takes the frame coefficients D_e = V_g - V_f of the pairs e of faces, makes a gain for each coefficient of
 each scale out of invariant numbers, and takes a step of shrinkage, which for the pairwise frame is
 
-    V_f <- V_f + sum over e at f of c_e g_e (V_g - V_f) / area_f,    c_e = 2 area_f area_g / (area_f + area_g).
+    V_f <- V_f + sum over e at f of c_e g_e (V_g - V_f) / area_f,  c_e = 2 area_f area_g / (area_f + area_g).
 
 Normals enter linearly only, so that the result turns with the mesh by construction.
 """
@@ -14,7 +14,7 @@ Normals enter linearly only, so that the result turns with the mesh by construct
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import NamedTuple
 
@@ -93,7 +93,7 @@ class Net:
     ) -> NDArray[np.float32]:
         """Return clean unit normals of the faces of a graph, shape (3, F).
 
-        `tick` is called after each layer.
+        `tick` is called after each layer. The normals of `scales` are used up.
         """
         return _Run(self, scales, features, graph).result(tick)
 
@@ -109,7 +109,10 @@ def pair_weights(scales: Scales, graph: FaceGraph) -> tuple[NDArray[np.float32],
     """Return c_e of the pairs, shape (P + 1,), and 1 / area of the faces, shape (F,), in local units."""
     areas = np.maximum(scales.areas[:, 0] / (scales.length * scales.length), LEAST_AREA)
     one, two = areas.take(graph.first), areas.take(graph.second)
-    return 2 * one * two / (one + two), 1 / areas
+    weight = one * two
+    weight *= np.float32(2)
+    weight /= one + two
+    return weight, np.reciprocal(areas)
 
 
 class _Run:
@@ -172,14 +175,10 @@ class _Run:
         """Go through all layers and return unit normals, shape (3, F)."""
         layers = self.net.layers
         for layer, after, repeats in zip(layers, [*layers[1:], None], REPEATS, strict=True):
-            self.graph.for_pairs(lambda start, stop, layer=layer: self._make_gates(layer, start, stop))
+            self.graph.for_pairs(partial(self._make_gates, layer))
             for step in range(repeats):
                 is_last = step == repeats - 1
-                self.graph.for_faces(
-                    lambda faces, polygons, layer=layer, after=after, is_last=is_last: self._diffuse(
-                        layer, after, faces, polygons, is_last=is_last
-                    )
-                )
+                self.graph.for_faces(partial(self._diffuse, layer, after, is_last=is_last))
                 self.vectors, self.following = self.following, self.vectors
             tick()
         normals = np.empty(self.vectors.shape[:2], np.float32)
@@ -228,7 +227,10 @@ class _Run:
         """Take a step of shrinkage for some faces; after the last one of a layer, mix scales and update s."""
         scratch, n = self.scratch, faces.stop - faces.start
         inverse = self.inverse_area[faces]
-        step, total = scratch("step", n, N_SCALES), [scratch(f"total {axis}", n, N_SCALES) for axis in range(3)]
+        step, total = (
+            scratch("step", n, N_SCALES),
+            [scratch(f"total {axis}", n, N_SCALES) for axis in range(3)],
+        )
         gate = scratch("gate", n, N_SCALES)
         for slot, (neighbors, pairs) in enumerate(zip(polygons.neighbors, polygons.pairs, strict=True)):
             np.take(self.gates, pairs, axis=0, out=gate, mode="clip")
@@ -261,7 +263,9 @@ class _Run:
             apart *= apart
             lengths += apart
         np.log(lengths, out=lengths)
-        around = np.take(self.hidden, polygons.pairs[0], axis=0, out=scratch("around", n, HIDDEN), mode="clip")
+        around = np.take(
+            self.hidden, polygons.pairs[0], axis=0, out=scratch("around", n, HIDDEN), mode="clip"
+        )
         for pairs in polygons.pairs[1:]:
             around += np.take(self.hidden, pairs, axis=0, out=part, mode="clip")
         around *= np.float32(1.0 / len(polygons.pairs))
@@ -292,10 +296,10 @@ def _layer(arrays: Mapping[str, Matrix], prefix: str) -> Layer:
     from_pairs, collect = weight("from_pairs"), weight("collect")
     return Layer(
         weight("from_faces"),
-        from_pairs[:N_SCALES] / 4,
+        from_pairs[:N_SCALES] * np.float32(0.25),
         np.vstack((from_pairs[N_SCALES:], bias("from_pairs"))),
-        weight("gains") / 2,  # a logistic function is half of 1 + tanh of the half
-        _tiled(bias("gains") / 2),
+        weight("gains") * np.float32(0.5),  # a logistic function is half of 1 + tanh of the half
+        _tiled(bias("gains") * np.float32(0.5)),
         weight("mixing"),
         _tiled(bias("mixing")),
         np.ascontiguousarray(arrays[f"{prefix}channels"].T),

@@ -4,13 +4,14 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .face_graph import FaceGraph, Polygons
 from ..averages.ring_means import RingMeans
+from .face_graph import FaceGraph, Polygons
 
 AVERAGES = (2, 10, 48)
 """Numbers k of averages of the low-passes L_k; the surface itself is the first scale."""
@@ -52,23 +53,7 @@ class Scales(NamedTuple):
 
 def find_scales(points: NDArray[np.float32], graph: FaceGraph, rings: RingMeans) -> Scales:
     """Return a surface at several scales; `points` are its positions, shape (3, N), float32."""
-    n_vertices = points.shape[1]
-    rows = np.zeros((n_vertices, 4), np.float32)
-    rows[:, :3] = rings.inward(np.ascontiguousarray(points.T))
-    changes = rings.low_passes(rows, AVERAGES)
-    unit = _edge_lengths(rows + changes[LENGTH_SCALE - 1], rings)
-    scaled = np.empty((3, n_vertices, N_SCALES), np.float32)
-
-    def gather(start: int, stop: int) -> None:
-        place = rings.place[start:stop]
-        for scale in range(N_SCALES):
-            part = rows.take(place, axis=0)
-            if scale:
-                part += changes[scale - 1].take(place, axis=0)
-            scaled[:, start:stop, scale] = part[:, :3].T
-
-    graph.blocks.run(gather, n_vertices)
-    del rows, changes
+    scaled, unit = _planes(points, graph, rings)
     scales = Scales(
         np.empty((3, graph.n_faces, N_SCALES), np.float32),
         np.empty((3, graph.n_faces, N_SCALES), np.float32),
@@ -103,10 +88,36 @@ def find_scales(points: NDArray[np.float32], graph: FaceGraph, rings: RingMeans)
     return scales
 
 
+def _planes(
+    points: NDArray[np.float32], graph: FaceGraph, rings: RingMeans
+) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Return the positions at all scales, shape (3, N, S), and the local unit of length, shape (N,)."""
+    n_vertices = points.shape[1]
+    rows = np.zeros((n_vertices, 4), np.float32)
+    rows[:, :3] = rings.inward(np.ascontiguousarray(points.T))
+    changes = rings.low_passes(rows, AVERAGES)
+    unit = _edge_lengths(rows + changes[LENGTH_SCALE - 1], rings)
+    scaled = np.empty((3, n_vertices, N_SCALES), np.float32)
+
+    def gather(start: int, stop: int) -> None:
+        place = rings.place[start:stop]
+        for scale in range(N_SCALES):
+            part = rows.take(place, axis=0)
+            if scale:
+                part += changes[scale - 1].take(place, axis=0)
+            scaled[:, start:stop, scale] = part[:, :3].T
+
+    graph.blocks.run(gather, n_vertices)
+    return scaled, unit
+
+
 def _fan_cross(arms: list[list[NDArray[np.float32]]]) -> list[NDArray[np.float32]]:
-    """Return twice the area vectors of fans, by axis; arm k goes from corner 0 to corner k, the first is unused."""
+    """Return twice the area vectors of fans, by axis.
+
+    Arm k goes from corner 0 to corner k; the first is not used.
+    """
     totals: list[NDArray[np.float32]] = []
-    for (a, b, c), (x, y, z) in zip(arms[1:-1], arms[2:], strict=True):
+    for (a, b, c), (x, y, z) in pairwise(arms[1:]):
         parts = (b * z - c * y, c * x - a * z, a * y - b * x)
         if totals:
             for total, part in zip(totals, parts, strict=True):

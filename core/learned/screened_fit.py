@@ -14,12 +14,14 @@ stiff in more directions and wins by itself.
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 from numpy.typing import NDArray
 
 from ..averages.means import Means, padded
-from .face_graph import FaceGraph, Polygons
 from ..averages.ring_means import RingMeans
+from .face_graph import FaceGraph, Polygons
 
 NORMAL_PULL = 0.006
 TANGENT_PULL = 0.1
@@ -238,7 +240,9 @@ class ScreenedFit:
         for _ in range(UNFOLDING_ROUNDS):
             folded = self._folded(points if moved is None else moved, normals, suspects)
             vertices = np.unique(
-                np.concatenate([group.corners[:, own].ravel() for group, own in zip(graph.groups, folded, strict=True)])
+                np.concatenate(
+                    [group.corners[:, own].ravel() for group, own in zip(graph.groups, folded, strict=True)]
+                )
             )
             if is_free is not None:
                 vertices = vertices[is_free[vertices]]
@@ -282,7 +286,7 @@ def fan_areas(corners: list[NDArray[np.float32]]) -> NDArray[np.float32]:
     """Return twice the area vectors of faces, shape (3, n), from their corners, each of shape (3, n)."""
     arms = [corner - corners[0] for corner in corners[1:]]
     total = np.zeros_like(corners[0])
-    for (a, b, c), (x, y, z) in zip(arms[:-1], arms[1:], strict=True):
+    for (a, b, c), (x, y, z) in pairwise(arms):
         total[0] += b * z - c * y
         total[1] += c * x - a * z
         total[2] += a * y - b * x

@@ -12,14 +12,15 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..averages.means import padded
+from ..averages.ring_means import RingMeans
 from ..blocks import Blocks
 from ..noise.fits import fit_heights
 from ..noise.patches import find_patches, local_adjacency, spread_sample
-from ..averages.means import padded
 from ..surface.connectivity import Connectivity
+from ..surface.distance_rings import Adjacency
 from ..surface.surface_mesh import SurfaceMesh
 from .face_graph import FaceGraph, Polygons
-from ..averages.ring_means import RingMeans
 from .scales import Scales
 
 ROUNDING = 4.0
@@ -41,6 +42,10 @@ MOSTLY_CLEAN = 0.25
 """Share of clean two-rings around a vertex from which it stays: fits fail at creases of clean meshes too."""
 
 LEAST_FREEDOM = 3.0
+"""Degrees of freedom of a fit that says something."""
+
+LEAST_KNOWN = 0.2
+"""Share of two-rings that have to be known around a vertex."""
 
 STICKS_OUT, TIMES_AROUND = 0.5, 4.0
 """Height over the low-pass, in local edge lengths and in heights of the ring, of a vertex that sticks out."""
@@ -144,7 +149,7 @@ def _clean_places(
         adjacency = local_adjacency(surface, connectivity, centers)
 
         def look(
-            start: int, stop: int, centers: NDArray[np.intp] = centers, adjacency=adjacency
+            start: int, stop: int, centers: NDArray[np.intp] = centers, adjacency: Adjacency = adjacency
         ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
             own = centers[start:stop]
             found = fit_heights(positions, find_patches(adjacency, own))
@@ -160,8 +165,9 @@ def _clean_places(
     counts[centers, 1] = is_quiet
     n_averages = int(64 * max(1, n_vertices // len(centers)))
     around = rings.outward(rings.averaged(rings.inward(counts), min(n_averages, 1024)))
-    share = around[:, 1] / np.maximum(around[:, 0], np.float32(1e-6))
-    is_clean = share > MOSTLY_CLEAN
+    # Where hardly a two-ring is known nothing is said to be clean.
+    is_known = around[:, 0] > LEAST_KNOWN * len(centers) / n_vertices
+    is_clean = is_known & (around[:, 1] > MOSTLY_CLEAN * around[:, 0])
     is_clean &= ~_sticking_out(points, unit, rings)
     return is_clean
 
@@ -169,7 +175,7 @@ def _clean_places(
 def _sticking_out(
     points: NDArray[np.float32], unit: NDArray[np.float32], rings: RingMeans
 ) -> NDArray[np.bool_]:
-    """Return vertices that are far from the mean of their ring, while those around them are not, shape (N,)."""
+    """Return vertices that are far from the mean of their ring, unlike those around them, shape (N,)."""
     rows = rings.inward(padded(points))
     away = rings.mean(rows)
     away -= rows

@@ -109,14 +109,14 @@ def learned_shrinkage(
     is_free[constraints.pinned] = False
     share_clean, unit = 0.0, np.ones(points.shape[1], np.float32)
     try:
-        while n_passes < settings.passes and amount > 0.0:
+        while n_passes < settings.passes and amount > 0.0 and engine.graph.n_faces:
             scales, features = engine.describe(fitted, log_strength, width)
             tick()
             # Steps of voxels and terraces are flat and smooth as well.
             if n_passes == 0 and settings.noise != "WIDE":
                 is_still = engine.find_still(points, surface, connectivity, scales, blocks)
                 is_free &= ~is_still
-                share_clean = float(is_still.mean())
+                share_clean = float(is_still[~connectivity.is_loose].mean())
                 if not is_free.any():
                     break
             moved = engine.fit.fit(points, engine.normals(net, scales, features, tick), is_free)

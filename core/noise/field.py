@@ -122,10 +122,11 @@ def noise_field(surface: SurfaceMesh, vertices: NDArray[np.floating]) -> NoiseFi
     return NoiseField(strength * np.float32(edge), width)
 
 
-def find_field(
-    before: NDArray[np.float32], after: NDArray[np.float32], engine: FaceEngine
-) -> NoiseField:
+def find_field(before: NDArray[np.float32], after: NDArray[np.float32], engine: FaceEngine) -> NoiseField:
     """Return the noise that was taken away between two positions, shape (3, N) each."""
+    if not engine.graph.n_faces:
+        nothing = np.zeros(before.shape[1], np.float32)
+        return NoiseField(nothing, nothing.copy())
     rings = engine.rings
     offset = rings.inward(engine.offsets(before, after)[:, None])
     mean = rings.mean(offset)

@@ -20,7 +20,7 @@ CASES = [
     ("triangles", {"frame": "ADAPTIVE", "stencil": "ADAPTIVE", "levels": 2}),
     ("triangles", {"frame": "PAIRWISE"}),
     ("triangles", {"frame": "B_SPLINE_3"}),
-    ("triangles", {"method": "NORMALS"}),
+    ("triangles", {"method": "AUTO"}),
     ("quads", {"method": "AUTO"}),
     ("triangles", {"method": "BILATERAL"}),
     ("quads", {"frame": "LINEAR_SPLINE"}),

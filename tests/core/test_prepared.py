@@ -15,7 +15,7 @@ from framelet.core.surface.locality import reorder
 from meshes import MESHES, faces_of, flipped, mixed_sheet, noisy, triangle_grid, triangle_torus, union
 
 POSITIONS = ("TRI_1", "TRI_2")
-OTHERS = ("FREE_FORM", "BILATERAL")
+OTHERS = ("AUTO", "BILATERAL")
 
 
 def settings_of(preset, **changes):
@@ -33,7 +33,7 @@ def test_runs_on_a_prepared_mesh_have_the_same_bits(preset, mesh, rng):
         {},
         {"lambda_": 0.1, "mu": 3.0, "delta": 0.2},
         {"iterations": 7, "tolerance": 1e-6, "threads": 2},
-        {"normal_threshold": 0.3, "sigma_s": 0.1},
+        {"strength": 0.8, "noise": "WIDE", "passes": 1, "sigma_s": 0.1},
         {},
     ):
         changed = settings.with_changes(**changes)
@@ -105,7 +105,7 @@ def test_any_other_array_does_not_fit(name, rng):
         {"levels": 2},
         {"boundary": "FIXED"},
         {"shrinkage": "BANDS"},
-        {"method": "NORMALS"},
+        {"method": "AUTO"},
     ],
 )
 def test_other_stencils_do_not_fit(changes, rng):

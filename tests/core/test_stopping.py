@@ -10,7 +10,7 @@ from framelet.core import PRESETS, PreparationCache, denoise
 from framelet.core.blocks import Blocks, Stopped
 from meshes import noisy, triangle_torus
 
-METHODS = ("AUTO", "TRI_1", "TRI_2", "FREE_FORM", "BILATERAL")
+METHODS = ("AUTO", "TRI_1", "TRI_2", "BILATERAL")
 """A preset of each method, and of both kinds of stencils."""
 
 

@@ -13,7 +13,7 @@ from .noise import chance, log_uniform, random_rotation
 from .organic import make_organic
 from .parts import make_part
 from .plates import make_plate
-from .quads import make_quads
+from .quads import make_coarse_quads, make_quads
 from .shells import make_shell
 from .sweeps import make_sweep
 from .terrain import make_terrain
@@ -33,22 +33,43 @@ FAMILIES = {
 }
 """Name of a family: its function and its weight."""
 
+FIRST_COARSE = 600
+"""Number of the first coarse mesh: there the surface bends a lot from face to face."""
+
+COARSE_FAMILIES = {
+    "part": (make_part, 2.0),
+    "quads": (make_coarse_quads, 4.0),
+    "organic": (make_organic, 1.5),
+    "sweep": (make_sweep, 1.0),
+    "terrain": (make_terrain, 0.7),
+    "shell": (make_shell, 0.7),
+    "plate": (make_plate, 0.6),
+    "marching": (make_marching, 0.5),
+}
+
 N_TRIES = 6
-LEAST_FACES = 3000
+LEAST_FACES, LEAST_COARSE = 3000, 350
 MOST_FACES = 26000
 
 
 def family_of(index: int) -> str:
     """Return the family of a mesh, interleaved so that any run of meshes is a fair mixture."""
-    names = list(FAMILIES)
-    weights = np.array([weight for _, weight in FAMILIES.values()])
+    families = _families(index)
+    names = list(families)
+    weights = np.array([weight for _, weight in families.values()])
     weights = weights / weights.sum()
     # The golden ratio visits the unit interval evenly.
     place = (index * 0.6180339887498949 + 0.5) % 1
     return names[min(int(np.searchsorted(np.cumsum(weights), place)), len(names) - 1)]
 
 
-def _target(rng) -> int:
+def _families(index: int) -> dict:
+    return FAMILIES if index < FIRST_COARSE else COARSE_FAMILIES
+
+
+def _target(rng, index: int) -> int:
+    if index >= FIRST_COARSE:
+        return int(log_uniform(rng, 500, 4500))
     return int(log_uniform(rng, 6000, 14000) if chance(rng, 0.8) else log_uniform(rng, 4200, 22000))
 
 
@@ -59,11 +80,11 @@ def _without_loose_vertices(mesh: Mesh) -> Mesh:
     return mesh
 
 
-def problem(mesh: Mesh) -> str:
+def problem(mesh: Mesh, least: int = LEAST_FACES) -> str:
     """Say why a mesh is no good, or nothing."""
     if not np.isfinite(mesh.vertices).all():
         return "not finite"
-    if not LEAST_FACES <= mesh.n_faces <= MOST_FACES:
+    if not least <= mesh.n_faces <= MOST_FACES:
         return f"{mesh.n_faces} faces"
     state = condition(mesh)
     if state.non_manifold:
@@ -96,9 +117,9 @@ def make(seed: int, index: int) -> tuple[Mesh, str]:
     for attempt in range(N_TRIES):
         rng = np.random.default_rng([seed, index, attempt])
         try:
-            mesh = _without_loose_vertices(FAMILIES[kind][0](rng, _target(rng)))
+            mesh = _without_loose_vertices(_families(index)[kind][0](rng, _target(rng, index)))
             mesh = _finished(rng, mesh)
-            reason = problem(mesh)
+            reason = problem(mesh, LEAST_FACES if index < FIRST_COARSE else LEAST_COARSE)
         except Exception as error:  # a tool that gives up on one shape must not stop the others
             reason = f"{type(error).__name__}: {error}"
         if not reason:

@@ -104,6 +104,12 @@ def _flow(rng, target: int) -> Mesh:
     return with_relief(rng, mesh, int(rng.integers(0, 4)), 4.0)
 
 
+def _flow_part(rng, target: int) -> Mesh:
+    """Remesh a machine part into field-aligned quads, which follow its creases or cross them."""
+    part = isotropic(to_mesh(solid_part(rng, 6000)[0]), 6000, 25)
+    return largest_island(quadriflow(largest_island(part), target))
+
+
 def honeycomb(rng, target: int) -> Mesh:
     """Make a patch of hexagons over bumpy ground, sometimes rolled."""
     n_v = int(np.sqrt(target))
@@ -204,3 +210,9 @@ def make_quads(rng, target: int) -> Mesh:
     """Make one of the shapes of this file."""
     kinds = [_voxel, _subdivided, _beveled, _flow, honeycomb, _cells, _dominant, _dissolved]
     return kinds[rng.choice(8, p=[0.2, 0.16, 0.11, 0.03, 0.08, 0.14, 0.16, 0.12])](rng, target)
+
+
+def make_coarse_quads(rng, target: int) -> Mesh:
+    """Make few quads: of parts, whose creases they often cross, and of bodies."""
+    kinds = [_voxel, _flow_part, _subdivided, _beveled, _dominant, _cells]
+    return kinds[rng.choice(6, p=[0.25, 0.3, 0.2, 0.1, 0.1, 0.05])](rng, target)

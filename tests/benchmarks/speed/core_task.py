@@ -24,9 +24,9 @@ STAGES = (
     (prepared_module, "connect", "connectivity"),
     (prepared_module, "normalize", "normalize"),
     (prepared_module, "make_transform", "stencils"),
+    (prepared_module, "FaceEngine", "stencils"),
     (denoise_module, "split_bregman", "solve"),
-    (denoise_module, "normal_filter", "solve"),
-    (denoise_module, "automatic_filter", "solve"),
+    (denoise_module, "learned_shrinkage", "solve"),
     (denoise_module, "bilateral_filter", "solve"),
     (denoise_module, "finish", "report"),
     (denoise_module, "_report", "report"),
@@ -64,7 +64,7 @@ def main():
     found["estimate"] = estimated_bytes(mesh.n_vertices, mesh.n_corners, settings)
     if options.get("rerun"):
         copy = mesh.with_vertices(mesh.vertices.copy())
-        again = settings.with_changes(lambda_=1.1 * settings.lambda_, sigma_n=1.1 * settings.sigma_n)
+        again = settings.with_changes(lambda_=1.1 * settings.lambda_, strength=1.1 * settings.strength)
         watch.run("rerun", lambda: denoise(copy, again, prepared=cache))
         found["stages"]["rerun"] = watch.seconds["rerun"]
     if settings.method == "POSITIONS" and settings.iterations > 1:

@@ -66,7 +66,7 @@ def test_selection_and_weights_that_exclude_each_other_are_refused(mesh):
         denoise(mesh, TRI_2, movable=weights == 0.0, region=Region(weights=weights))
 
 
-@pytest.mark.parametrize("preset", ["AUTO", "TRI_1", "TRI_2", "FREE_FORM", "BILATERAL", "POSITIONS"])
+@pytest.mark.parametrize("preset", ["AUTO", "TRI_1", "TRI_2", "BILATERAL", "POSITIONS"])
 def test_a_region_without_limits_changes_nothing(preset, mesh):
     plain = Region(
         weights=np.ones(192), feature_edges=np.zeros((0, 2), int), max_displacement=1e9, weld_distance=0.0

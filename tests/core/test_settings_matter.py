@@ -1,0 +1,57 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the user interface hides does not matter, and what it shows does."""
+
+from dataclasses import fields
+
+import numpy as np
+import pytest
+from checks import assert_same_bits
+from framelet.core import DenoiseSettings, denoise
+from framelet.core.choices import METHODS
+from meshes import MESHES, noisy
+
+INFO = {item.name: item.metadata["info"] for item in fields(DenoiseSettings)}
+CHANGES = {
+    "strength": 0.5,
+    "noise": "WIDE",
+    "passes": 1,
+    "frame": "ADAPTIVE",
+    "stencil": "MEAN",
+    "shrinkage": "BANDS",
+    "levels": 2,
+    "lambda_": 0.6,
+    "mu": 3.0,
+    "delta": 0.3,
+    "iterations": 4,
+    "tolerance": 1.0,
+    "boundary": "FIXED",
+    "sigma_c": 1.7,
+    "sigma_s": 0.2,
+}
+"""Another value for each setting but the method, but where parameters come from, and but the threads, which
+never change a result."""
+
+
+@pytest.mark.parametrize("method", [choice.identifier for choice in METHODS])
+def test_settings_that_have_no_effect_change_nothing_and_others_do(method, rng):
+    assert {*CHANGES, "method", "tuning", "threads"} == set(INFO)
+    mesh = noisy(MESHES["irregular grid"](), rng)
+    settings = DenoiseSettings(method=method, iterations=3)
+    plain = denoise(mesh, settings).vertices
+    assert not [name for name, value in CHANGES.items() if getattr(settings, name) == value]
+    hidden = {name: value for name, value in CHANGES.items() if not INFO[name].has_effect(method)}
+    # In one run, as each of many settings would take one of its own.
+    assert_same_bits(denoise(mesh, settings.with_changes(**hidden)).vertices, plain)
+    for name in [name for name in CHANGES if name not in hidden]:
+        other = denoise(mesh, settings.with_changes(**{name: CHANGES[name]})).vertices
+        assert not np.array_equal(other, plain), name
+    assert_same_bits(denoise(mesh, settings.with_changes(threads=3)).vertices, plain)
+    assert INFO["threads"].has_effect(method) and INFO["method"].has_effect(method)
+
+
+def test_every_method_has_settings_of_its_own():
+    named = {method for info in INFO.values() for method in info.methods}
+    assert named == {choice.identifier for choice in METHODS}
+    own = {name for name, info in INFO.items() if info.methods == ("AUTO",)}
+    assert own == {"strength", "noise", "passes"}
