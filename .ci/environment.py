@@ -38,6 +38,7 @@ PYTHONS = {
     "bpy-4.5": ("3.11",),
     "bpy-5.2": ("3.13",),
     "speed": ("3.11", "3.12", "3.13"),
+    "training": ("3.11",),
 }
 
 # Folders that hold Pythons but are often missing from PATH; {v} is a version like 3.11.

@@ -3,7 +3,7 @@
 """Slow twins of learned shrinkage: its definitions, written as loops over faces and pairs."""
 
 from collections import defaultdict
-from itertools import pairwise
+from itertools import pairwise, permutations, product
 
 import numpy as np
 from meshes import faces_of
@@ -11,6 +11,8 @@ from twins import newell
 
 AVERAGES = (2, 10, 48)
 FLOOR = 1e-4
+SHRUNK = 1e-3
+LEAST_LENGTH = 0.05
 
 
 def face_order(mesh):
@@ -58,49 +60,62 @@ def parts_of(n_faces, pairs):
     return part
 
 
-def ring_matrix(mesh):
-    """Return the mean P over neighbors, on a border over those along it, as a dense matrix."""
-    around, rim, count = defaultdict(set), defaultdict(set), defaultdict(int)
-    for face in faces_of(mesh):
-        for v, w in pairwise([*face, face[0]]) if face else ():
-            count[frozenset((v, w))] += 1
-            if v != w:
-                around[v].add(w)
-                around[w].add(v)
-    for edge, n_faces in count.items():
-        if n_faces == 1 and len(edge) == 2:
-            v, w = edge
-            rim[v].add(w)
-            rim[w].add(v)
+def ring_matrix(mesh, left_out=()):
+    """Return the mean P over neighbors, on a border over those along it, as a dense matrix.
+
+    Edges that are left out make no neighbors; a vertex without others takes its neighbors that have some.
+    """
+    around, rim, whole, count = (defaultdict(set) for _ in range(4))
+    left_out = {frozenset(edge) for edge in left_out}
+    for f, face in enumerate(faces_of(mesh)):
+        for place, (v, w) in enumerate(pairwise([*face, *face[:1]])):
+            count[frozenset((v, w))].add((f, place))
+    for edge, places in count.items():
+        if len(edge) == 2:
+            for v, w in permutations(edge):
+                whole[v].add(w)
+                if len(places) == 1:
+                    rim[v]  # is on a border, whether or not anything is left of it
+                if edge not in left_out:
+                    around[v].add(w)
+                    if len(places) == 1:
+                        rim[v].add(w)
+    near = [rim[v] if v in rim else around[v] for v in range(mesh.n_vertices)]
     result = np.zeros((mesh.n_vertices, mesh.n_vertices))
-    for v in range(mesh.n_vertices):
-        near = sorted(rim[v] or around[v] or {v})
-        result[v, near] = 1 / len(near)
+    for v, own in enumerate(near):
+        own = sorted(own or {w for w in whole[v] if left_out and near[w]} or {v})
+        result[v, own] = 1 / len(own)
     return result
 
 
-def averaging(mesh, power):
+def averaging(means, power):
     """Return A^k, A = (1 + P) / 2, as a dense matrix."""
-    return np.linalg.matrix_power((np.eye(mesh.n_vertices) + ring_matrix(mesh)) / 2, power)
+    return np.linalg.matrix_power((np.eye(len(means)) + means) / 2, power)
 
 
-def low_pass(mesh, k):
+def low_pass(means, k):
     """Return L_k = 2 A^k - A^2k as a dense matrix."""
-    return 2 * averaging(mesh, k) - averaging(mesh, 2 * k)
+    return 2 * averaging(means, k) - averaging(means, 2 * k)
 
 
-def slow_scales(mesh):
-    """Return normals (F, S, 3), centroids (F, S, 3), areas (F, S) and lengths (F,) of the faces of the graph."""
-    surfaces = [mesh.vertices, *(low_pass(mesh, k) @ mesh.vertices for k in AVERAGES)]
+def slow_scales(mesh, means):
+    """Return normals and centroids (F, S, 3), areas (F, S) and lengths (F,) of the faces of the graph."""
+    surfaces = [mesh.vertices, *(low_pass(means, k) @ mesh.vertices for k in AVERAGES)]
     faces = polygons_of(mesh)
     vectors = np.array([[newell(points[face]) for points in surfaces] for face in faces])
     centroids = np.array([[points[face].mean(axis=0) for points in surfaces] for face in faces])
     areas = np.linalg.norm(vectors, axis=2)
     normals = vectors / np.maximum(areas, 1e-30)[:, :, None]
-    smooth, edge = surfaces[2], np.zeros(mesh.n_vertices)
-    for v, row in enumerate(ring_matrix(mesh)):
-        edge[v] = np.mean([np.linalg.norm(smooth[w] - smooth[v]) for w in np.flatnonzero(row)])
-    edge = np.exp(averaging(mesh, 12) @ np.log(np.maximum(edge, 1e-12)))
+    for f, scale in product(range(len(faces)), range(1, len(surfaces))):
+        if areas[f, scale] < SHRUNK * areas[f, 0]:
+            normals[f, scale] = normals[f, scale - 1]
+    edge = np.ones(mesh.n_vertices)
+    for v, row in enumerate(means):
+        near = np.flatnonzero(row)
+        noisy, smooth = (np.linalg.norm(x[near] - x[v], axis=1).mean() for x in (surfaces[0], surfaces[2]))
+        if noisy > 0:
+            edge[v] = max(smooth, LEAST_LENGTH * noisy)
+    edge = np.exp(averaging(means, 12) @ np.log(edge))
     return normals, centroids, areas, np.array([edge[face].mean() for face in faces])
 
 
@@ -118,7 +133,7 @@ def face_pairs_of(mesh, pairs):
     ]
 
 
-def slow_features(mesh, scales, log_strength=0.0, width=0.0, least_island=500):
+def slow_features(mesh, means, scales, log_strength=0.0, width=0.0, least_island=500):
     """Return the inputs of the net: of the faces of the graph, and of pairs in the order of `pairs_of`."""
     normals, centroids, areas, length = scales
     pairs = pairs_of(mesh)
@@ -149,7 +164,7 @@ def slow_features(mesh, scales, log_strength=0.0, width=0.0, least_island=500):
         result[f, :13] = [*height, *heights, *between, area]
         spread[f] = [*mean, *heights, mean[0] ** 2, heights[0] ** 2]
         is_flat[f] = jumps[:, 0].max() < np.log(2 * FLOOR) and abs(height[0]) < 1e-3
-    result[:, 13:21] = spread_around(mesh, faces, spread, log_strength)
+    result[:, 13:21] = spread_around(means, faces, spread, log_strength)
     part = np.array(parts_of(len(faces), pairs))
     sizes = np.bincount(part)
     part[sizes[part] < least_island] = -1 if (sizes > 0).sum() > 1 else 0
@@ -159,14 +174,14 @@ def slow_features(mesh, scales, log_strength=0.0, width=0.0, least_island=500):
     return result, of_pairs
 
 
-def spread_around(mesh, faces, spread, log_strength):
+def spread_around(means, faces, spread, log_strength):
     """Return energies averaged over vertices, A^64 and corners; second moments become deviations."""
-    at_vertex = np.zeros((mesh.n_vertices, 8))
-    for v in range(mesh.n_vertices):
+    at_vertex = np.zeros((len(means), 8))
+    for v in range(len(means)):
         own = [f for f, face in enumerate(faces) for w in face if w == v]
         if own:
             at_vertex[v] = spread[own].mean(axis=0)
-    wide = averaging(mesh, 64) @ at_vertex
+    wide = averaging(means, 64) @ at_vertex
     result = np.array([wide[face].mean(axis=0) for face in faces])
     for moment, mean in ((6, 0), (7, 3)):
         result[:, moment] = np.sqrt(np.maximum(result[:, moment] - result[:, mean] ** 2, 0))
@@ -204,9 +219,7 @@ def slow_net(arrays, mesh, scales, features, pair_features, repeats, clip=6.0):
         return np.clip((x - arrays[f"{kind}_mean"]) / arrays[f"{kind}_scale"], -clip, clip)
 
     vectors = normals.copy()
-    state = [
-        linear("begin", np.maximum(linear("enter", standard(row, "face")), 0)) for row in features
-    ]
+    state = [linear("begin", np.maximum(linear("enter", standard(row, "face")), 0)) for row in features]
     for number, n_steps in enumerate(repeats):
         name = f"layers.{number}"
         hidden, gains = [], []
@@ -215,7 +228,9 @@ def slow_net(arrays, mesh, scales, features, pair_features, repeats, clip=6.0):
             own = linear(f"{name}.from_faces", state[f]) + linear(f"{name}.from_faces", state[g])
             own += linear(f"{name}.from_pairs", np.concatenate((energies, standard(row, "edge"))))
             hidden.append(np.maximum(own, 0))
-            share = 2 * weight[f] * weight[g] / (weight[f] + weight[g]) / (max(n_corners[f], n_corners[g]) + 1)
+            share = (
+                2 * weight[f] * weight[g] / (weight[f] + weight[g]) / (max(n_corners[f], n_corners[g]) + 1)
+            )
             gains.append(share / (1 + np.exp(-linear(f"{name}.gains", hidden[-1]))))
         for _ in range(n_steps):
             following = vectors.copy()

@@ -207,3 +207,12 @@ def faces_across(mesh):
             ]
         )
     return table
+
+
+def faces_touching(mesh):
+    """Return, for each face, the faces that share a vertex with it, itself included, ascending."""
+    named = defaultdict(set)
+    for f, face in enumerate(faces_of(mesh)):
+        for v in face:
+            named[v].add(f)
+    return [sorted(set().union(*(named[v] for v in face))) for face in faces_of(mesh)]

@@ -144,15 +144,15 @@ def none(mesh: SampleMesh, rng: np.random.Generator) -> tuple[NDArray[np.float64
 
 
 MIXTURE: dict[Draw, float] = {
-    white: 0.28,
-    directions: 0.09,
-    correlated: 0.17,
+    white: 0.27,
+    directions: 0.07,
+    correlated: 0.20,
     uneven: 0.12,
-    impulsive: 0.12,
+    impulsive: 0.10,
     spikes: 0.04,
     quantized: 0.03,
     voxels: 0.2,
-    range_image: 0.07,
+    range_image: 0.09,
     none: 0.05,
 }
 """How often each kind is drawn; voxels on meshes that have them."""

@@ -32,8 +32,8 @@ class SampleMesh:
         self.vertices = (surface.vertices - center) / edge
         self.surface = surface.with_vertices(self.vertices)
         self.voxels = None if voxels is None else (voxels - center) / edge
-        connectivity = connect(self.surface)
-        self.engine = FaceEngine(self.surface, connectivity, Blocks(1))
+        self.connectivity = connect(self.surface)
+        self.engine = FaceEngine(self.surface, self.connectivity, Blocks(1))
         self.mean_edge = 1.0
         self.vertex_normals = vertex_normals(self.surface)
         steps = self.vertices[self.surface.edges[:, 0]] - self.vertices[self.surface.edges[:, 1]]

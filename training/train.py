@@ -32,6 +32,9 @@ LOSS_FLOOR = 0.004
 AVERAGE = 0.998
 """Decay of the running mean of the weights, which is what is exported."""
 
+INSIDE_OUT = 0.35
+"""Share of the draws that are turned inside out."""
+
 ONE_PASS, SOME = 0.25, 0.3
 """Up to this share of the time only some of the steps train the second pass: the first has to work before."""
 
@@ -44,9 +47,15 @@ class Draw:
     def __init__(self, mesh: SampleMesh, rng: np.random.Generator, *, is_told: bool | None = None) -> None:
         positions, width, self.kind = noise.draw(mesh, rng)
         is_told = rng.random() < 0.4 if is_told is None else is_told
-        self.mesh, self.width = mesh, width if is_told else 0.0
+        self.width = width if is_told else 0.0
+        self.engine = mesh.engine.placed(mesh.surface.with_vertices(positions), mesh.connectivity)
         self.points = np.ascontiguousarray(positions.T, np.float32)
-        self.wanted = torch.from_numpy(np.ascontiguousarray(mesh.normals.T))
+        wanted = mesh.normals.copy()
+        if rng.random() < INSIDE_OUT:
+            # All inputs are scalar products: a mirror image is the same as a mesh that is inside out.
+            self.points[0] *= -1
+            wanted[1:] *= -1
+        self.wanted = torch.from_numpy(np.ascontiguousarray(wanted.T))
         cluster = mesh.clusters(rng)
         self.is_counted = torch.from_numpy(cluster >= 0)
         self.cluster = torch.from_numpy(cluster[cluster >= 0])
@@ -54,10 +63,10 @@ class Draw:
 
     def described(self, normals: NDArray[np.float32] | None = None) -> tuple[Scales, Features]:
         """Return what the net sees: of the noisy mesh, or of the mesh that fits wanted normals (3, F)."""
-        points = self.points
-        if normals is not None:
-            points = self.mesh.engine.fit.fit(points, normals)
-        return self.mesh.engine.describe(points, 0.0, self.width)
+        if normals is None:
+            return self.engine.describe(self.points, width=self.width)
+        points = self.engine.fit.fit(self.points, normals)
+        return self.engine.describe(points, self.engine.taken(self.points, points), width=self.width)
 
     def loss(self, normals: torch.Tensor) -> torch.Tensor:
         """Return the mean over clusters of log(mean |n - n*| + floor)."""
@@ -72,7 +81,7 @@ def both_passes(net: Net, draw: Draw, weights: Sequence[float]) -> tuple[float, 
     found = None
     for weight in weights:
         scales, features = draw.described(found)
-        normals = net(scales, features, draw.mesh.engine)
+        normals = net(scales, features, draw.engine)
         loss = draw.loss(normals)
         if torch.is_grad_enabled():
             (weight * loss).backward()
@@ -90,7 +99,9 @@ def standardize(net: Net, draws: Sequence[Draw]) -> None:
     ):
         rows = np.concatenate([part[:: max(1, len(part) // 2000)] for part in parts])
         getattr(net, f"{name}_mean").copy_(torch.from_numpy(rows.mean(axis=0)))
-        getattr(net, f"{name}_scale").copy_(torch.from_numpy(np.maximum(rows.std(axis=0), 0.05)))
+        # Columns that are the same everywhere here, such as what no pass before took away, stay as they are.
+        spread = np.where(rows.std(axis=0) < 1e-6, 1.0, np.maximum(rows.std(axis=0), 0.05))
+        getattr(net, f"{name}_scale").copy_(torch.from_numpy(spread.astype(np.float32)))
 
 
 def validate(net: Net, draws: Sequence[Draw]) -> tuple[float, str]:

@@ -38,29 +38,47 @@ class RingMeans(Means):
         Its neighborhoods.
     blocks : Blocks
         Threads to work on.
+    is_left_out : ndarray, shape (E,), bool, optional
+        Edges that make no neighbors. A vertex with no other edges still has the mean of its neighbors, but
+        counts for none of them.
     """
 
-    def __init__(self, surface: SurfaceMesh, connectivity: Connectivity, blocks: Blocks) -> None:
-        offset, ring = connectivity.ring_offset, connectivity.ring
+    def __init__(
+        self,
+        surface: SurfaceMesh,
+        connectivity: Connectivity,
+        blocks: Blocks,
+        is_left_out: NDArray[np.bool_] | None = None,
+    ) -> None:
         n_vertices = connectivity.n_vertices
-        rim = surface.edges[connectivity.edge_face_count == 1]
-        rim = rim[rim[:, 0] != rim[:, 1]]
-        starts, ends = np.concatenate((rim, rim[:, ::-1])).T
-        on_rim = np.bincount(starts, minlength=n_vertices)
-        counts = np.where(on_rim > 0, on_rim, np.diff(offset))
-        is_alone = counts == 0
-        if not on_rim.any() and not is_alone.any():
-            self._neighbors = Ragged(offset, ring)
-            super().__init__(self._neighbors, blocks, is_square=True)
-            return
-        places = np.concatenate(([0], np.cumsum(counts + is_alone)))
-        items = np.empty(places[-1], np.int32)
-        items[places[:-1][is_alone]] = np.flatnonzero(is_alone)
-        is_inner = np.repeat((on_rim == 0) & ~is_alone, counts + is_alone)
-        items[is_inner] = ring[np.repeat((on_rim == 0) & ~is_alone, np.diff(offset))]
-        is_inner[places[:-1][is_alone]] = True
-        items[~is_inner] = ends[stable_order(starts.astype(np.int32), n_vertices)]
-        self._neighbors = Ragged(places, items)
+        count = connectivity.edge_face_count
+        is_plain = surface.edges[:, 0] != surface.edges[:, 1]
+        rim = surface.edges[(count == 1) & is_plain]
+        is_rim = np.zeros(n_vertices, bool)
+        is_rim[rim] = True
+        has_all = is_left_out is None or not is_left_out.any()
+        if has_all and not len(rim) and not connectivity.is_loose.any():
+            self._neighbors = Ragged(connectivity.ring_offset, connectivity.ring)
+        else:
+            inner = (count > 0) & is_plain
+            if is_left_out is not None:
+                inner &= ~is_left_out
+                rim = surface.edges[(count == 1) & is_plain & ~is_left_out]
+            pairs = surface.edges[inner]
+            pairs = np.concatenate((pairs, pairs[:, ::-1]))
+            pairs = np.concatenate((pairs[~is_rim[pairs[:, 0]]], rim, rim[:, ::-1]))
+            if not has_all:
+                is_far = np.bincount(pairs[:, 0], minlength=n_vertices) == 0
+                far = surface.edges[(count > 0) & is_plain]
+                far = np.concatenate((far, far[:, ::-1]))
+                pairs = np.concatenate((pairs, far[is_far[far[:, 0]] & ~is_far[far[:, 1]]]))
+            alone = np.flatnonzero(np.bincount(pairs[:, 0], minlength=n_vertices) == 0)
+            pairs = np.concatenate((pairs, np.stack((alone, alone), axis=1)))
+            counts = np.bincount(pairs[:, 0], minlength=n_vertices)
+            order = stable_order(pairs[:, 0].astype(np.int32), n_vertices)
+            self._neighbors = Ragged(
+                np.concatenate(([0], np.cumsum(counts))), pairs[order, 1].astype(np.int32)
+            )
         super().__init__(self._neighbors, blocks, is_square=True)
 
     def mean_at(self, points: NDArray[np.floating], vertices: NDArray[np.integer]) -> NDArray[np.floating]:

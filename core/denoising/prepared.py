@@ -186,7 +186,9 @@ def _prepare(
         transform = engine = None
         if settings.method == "AUTO":
             engine = None if previous is None else previous.engine
-            engine = engine or FaceEngine(ordered, connectivity, blocks)
+            if engine is None:
+                engine = FaceEngine(ordered, connectivity, blocks)
+            engine = engine.placed(ordered, connectivity)
         if settings.method == "POSITIONS":
             # Chosen on the normalized surface in full precision, so that rounding decides nothing.
             transform = make_transform(

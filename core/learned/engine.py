@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from copy import copy
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,16 +22,35 @@ from .islands import find_islands
 from .net import Net
 from .scales import Scales, find_scales
 from .screened_fit import ScreenedFit, fan_areas
-from .stillness import find_still
+from .taken import Taken, find_taken
+
+LONG = 8.0
+"""Length in mean lengths of the edges at its ends from which an edge is long."""
+
+
+def long_edges(surface: SurfaceMesh, connectivity: Connectivity) -> NDArray[np.bool_]:
+    """Return edges that are long beside the others at one of their ends, shape (E,), bool."""
+    one, two = surface.edges.T
+    step = surface.vertices[one].astype(np.float64) - surface.vertices[two]
+    length = np.sqrt((step * step).sum(axis=1))
+    has_face = connectivity.edge_face_count > 0
+    # Means of logarithms: the long edges themselves hardly count.
+    logarithm = np.where(has_face, np.log(np.maximum(length, 1e-300)), 0.0)
+    total = np.bincount(one, logarithm, surface.n_vertices) + np.bincount(two, logarithm, surface.n_vertices)
+    mean = total / np.maximum(connectivity.valence, 1)
+    return has_face & (logarithm - np.minimum(mean[one], mean[two]) > np.log(LONG))
 
 
 class FaceEngine:
     """Tables of a mesh: pairs of faces, rings, faces at vertices, islands.
 
+    Edges that are many times as long as those around one of their ends make no neighbors in rings: the far
+    end of a huge triangle says nothing about what is here.
+
     Parameters
     ----------
     surface : SurfaceMesh
-        The mesh; its positions are not looked at.
+        The mesh; of its positions only which edges are long counts.
     connectivity : Connectivity
         Its neighborhoods.
     blocks : Blocks
@@ -39,7 +59,8 @@ class FaceEngine:
 
     def __init__(self, surface: SurfaceMesh, connectivity: Connectivity, blocks: Blocks) -> None:
         self.graph = FaceGraph(surface, connectivity, blocks)
-        self.rings = RingMeans(surface, connectivity, blocks)
+        self._blocks, self._is_long = blocks, long_edges(surface, connectivity)
+        self.rings = RingMeans(surface, connectivity, blocks, self._is_long)
         at_vertex = faces_of_vertices(surface, connectivity)
         if self.graph.order is not None:
             number = np.full(surface.n_faces, -1, np.int32)
@@ -52,25 +73,33 @@ class FaceEngine:
         self.fit = ScreenedFit(self.graph, self.at_vertex, self.rings)
         self.island = find_islands(self.graph)
 
-    def describe(
-        self, points: NDArray[np.float32], log_strength: float = 0.0, width: float = 0.0
-    ) -> tuple[Scales, Features]:
-        """Return scales and features of positions, shape (3, N), float32."""
-        scales = find_scales(points, self.graph, self.rings)
-        return scales, find_features(
-            scales, self.graph, self.rings, self.at_vertex, self.island, log_strength, width
-        )
+    def placed(self, surface: SurfaceMesh, connectivity: Connectivity) -> FaceEngine:
+        """Return the engine for other positions of the same mesh: this one, unless other edges are long."""
+        is_long = long_edges(surface, connectivity)
+        if np.array_equal(self._is_long, is_long):
+            return self
+        other = copy(self)
+        other._is_long = is_long
+        other.rings = RingMeans(surface, connectivity, self._blocks, is_long)
+        other.fit = ScreenedFit(self.graph, self.at_vertex, other.rings)
+        return other
 
-    def find_still(
+    def describe(
         self,
         points: NDArray[np.float32],
-        surface: SurfaceMesh,
-        connectivity: Connectivity,
-        scales: Scales,
-        blocks: Blocks,
-    ) -> NDArray[np.bool_]:
-        """Return the vertices that are clean and stay, shape (N,)."""
-        return find_still(points, surface, connectivity, scales, self.graph, self.rings, blocks)
+        taken: Taken | None = None,
+        log_strength: float = 0.0,
+        width: float = 0.0,
+    ) -> tuple[Scales, Features]:
+        """Return scales and features of positions, shape (3, N), float32; see `find_features`."""
+        scales = find_scales(points, self.graph, self.rings)
+        return scales, find_features(
+            scales, self.graph, self.rings, self.at_vertex, self.island, taken, log_strength, width
+        )
+
+    def taken(self, before: NDArray[np.float32], after: NDArray[np.float32]) -> Taken:
+        """Return what was taken away between two positions, shape (3, N)."""
+        return find_taken(self.offsets(before, after), self.rings)
 
     def normals(
         self, net: Net, scales: Scales, features: Features, tick: Callable[[], None] = lambda: None

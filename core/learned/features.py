@@ -16,6 +16,7 @@ from ..averages.means import Means
 from ..averages.ring_means import RingMeans
 from .face_graph import FaceGraph, Polygons
 from .scales import N_SCALES, Scales
+from .taken import Taken
 
 FLOOR = np.float32(1e-4)
 """Least energy: jumps of normals and heights below a hundredth are as good as none."""
@@ -33,7 +34,8 @@ PAIRS_OF_SCALES = ((0, 1), (1, 2), (2, 3), (0, 2), (1, 3), (0, 3))
 
 N_SPREAD = 8
 N_GLOBAL = 17
-N_FACE = 3 + 3 + len(PAIRS_OF_SCALES) + 1 + N_SPREAD + N_GLOBAL
+N_TAKEN = 2
+N_FACE = 3 + 3 + len(PAIRS_OF_SCALES) + 1 + N_SPREAD + N_GLOBAL + N_TAKEN
 N_EDGE = 7
 
 
@@ -43,8 +45,8 @@ class Features(NamedTuple):
     Attributes
     ----------
     faces : ndarray, shape (F, N_FACE), float32
-        Heights and energies at each face, the same spread over its neighborhood, and quantiles over its
-        island.
+        Heights and energies at each face, the same spread over its neighborhood, quantiles over its island,
+        and what the pass before took away.
     pairs : ndarray, shape (P + 1, N_EDGE), float32
         Distance, ratio of areas, bends and offsets across each edge; 0 for the pair without faces.
     """
@@ -66,6 +68,7 @@ def find_features(
     rings: RingMeans,
     at_vertex: Means,
     island: NDArray[np.int32] | None,
+    taken: Taken | None = None,
     log_strength: float = 0.0,
     width: float = 0.0,
 ) -> Features:
@@ -83,6 +86,8 @@ def find_features(
         Faces of the graph at each vertex.
     island : ndarray, shape (F,), int32, or None
         Number of the connected part that each face belongs to; None if there is one.
+    taken : Taken, optional
+        What the pass before took away.
     log_strength : float
         Logarithm of Strength: added to the logarithms of fine jumps, and half of it to those of heights.
     width : float
@@ -171,7 +176,8 @@ def find_features(
 
     graph.for_faces(inside)
     column = 2 * n_bands + len(PAIRS_OF_SCALES) + 1
-    faces[:, column + N_SPREAD :] = _quantiles(spread, is_flat, island, log_strength, width)
+    faces[:, column + N_SPREAD : -N_TAKEN] = _quantiles(spread, is_flat, island, log_strength, width)
+    faces[:, -N_TAKEN:] = 0
     at_faces = rings.inward(at_vertex.outward(at_vertex.mean(spread)))
     at_faces = rings.outward(rings.averaged(at_faces, SPREAD_AVERAGES))
 
@@ -187,6 +193,11 @@ def find_features(
             total[:, :2] += np.float32(2 * log_strength)
             total[:, n_bands : 2 * n_bands] += np.float32(log_strength)
         faces[block, column : column + N_SPREAD] = total
+        if taken is not None:
+            unit = scales.length[block]
+            strength = taken.strength.take(polygons.corners).mean(axis=0) / unit
+            faces[block, -2] = energy(strength) / 4 + 1  # 0, as in a first pass, for a usual strength
+            faces[block, -1] = 2 * taken.correlation.take(polygons.corners).mean(axis=0)
 
     graph.for_faces(collect)
     return Features(faces, pairs)

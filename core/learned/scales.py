@@ -24,6 +24,12 @@ LENGTH_SCALE = 2
 LENGTH_AVERAGES = 12
 """Averages over which lengths of edges are spread, so that the unit of length is smooth."""
 
+LEAST_LENGTH = np.float32(0.05)
+"""Share of the length of the edges as they are that smooth ones count for at least."""
+
+SHRUNK = np.float32(1e-3)
+"""Share of its area below which the normal of a face that a low-pass has shrunk is not looked at."""
+
 _TINY = 1e-30
 
 
@@ -83,9 +89,20 @@ def find_scales(points: NDArray[np.float32], graph: FaceGraph, rings: RingMeans)
         size += np.float32(_TINY)
         for axis in range(3):
             np.divide(area[axis], size, out=scales.normals[axis, faces])
+        _keep_normals(scales, faces)
 
     graph.for_faces(kernel)
     return scales
+
+
+def _keep_normals(scales: Scales, faces: slice) -> None:
+    """Take the normal of the scale before where a low-pass has shrunk a face to a few digits."""
+    areas = scales.areas[faces]
+    for scale in range(1, N_SCALES):
+        gone = np.flatnonzero(areas[:, scale] < SHRUNK * areas[:, 0])
+        if len(gone):
+            gone += faces.start
+            scales.normals[:, gone, scale] = scales.normals[:, gone, scale - 1]
 
 
 def _planes(
@@ -96,7 +113,7 @@ def _planes(
     rows = np.zeros((n_vertices, 4), np.float32)
     rows[:, :3] = rings.inward(np.ascontiguousarray(points.T))
     changes = rings.low_passes(rows, AVERAGES)
-    unit = _edge_lengths(rows + changes[LENGTH_SCALE - 1], rings)
+    unit = _edge_lengths(rows, changes[LENGTH_SCALE - 1], rings)
     scaled = np.empty((3, n_vertices, N_SCALES), np.float32)
 
     def gather(start: int, stop: int) -> None:
@@ -127,22 +144,33 @@ def _fan_cross(arms: list[list[NDArray[np.float32]]]) -> list[NDArray[np.float32
     return totals
 
 
-def _edge_lengths(rows: NDArray[np.float32], rings: RingMeans) -> NDArray[np.float32]:
+def _edge_lengths(
+    rows: NDArray[np.float32], change: NDArray[np.float32], rings: RingMeans
+) -> NDArray[np.float32]:
     """Return the mean length of the edges around each vertex, shape (N,), in the mesh's numbering.
 
-    `rows`, shape (N, 4), are positions as numbered inside `rings`. Vertices without neighbors have length 0.
+    `rows` and `change`, shape (N, 4), are positions as numbered inside `rings` and what makes them smooth.
     """
-    lengths = np.zeros((len(rows), 1), np.float32)
+    lengths = np.ones((len(rows), 1), np.float32)
 
     def measure(part: slice, members: NDArray[np.int32]) -> None:
         if not len(members):
             return
         arms = rows.take(members, axis=0)
         arms -= rows[part]
-        arms *= arms
-        lengths[part, 0] = np.sqrt(arms.reshape(-1, 4).sum(axis=1)).reshape(len(members), -1).mean(axis=0)
+        noisy = _mean_length(arms)
+        arms += change.take(members, axis=0)
+        arms -= change[part]
+        found = np.maximum(_mean_length(arms), LEAST_LENGTH * noisy)
+        lengths[part, 0] = np.where(noisy > 0, found, np.float32(1))
 
     rings.for_parts(measure)
     # A geometric mean: one huge edge among small ones does not set the unit of all of them.
-    np.log(np.maximum(lengths, np.float32(1e-12)), out=lengths)
+    np.log(lengths, out=lengths)
     return np.exp(rings.outward(rings.averaged(lengths, LENGTH_AVERAGES))[:, 0])
+
+
+def _mean_length(arms: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Return the mean lengths, shape (n,), of vectors, shape (K, n, 4)."""
+    length: NDArray[np.float32] = np.sqrt((arms * arms).sum(axis=2)).mean(axis=0)
+    return length

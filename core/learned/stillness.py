@@ -4,7 +4,8 @@
 
 Two things never come out of noise: faces that are coplanar to the last digit, several of them side by side,
 and places where cubic polynomials fit two-rings to within `CLEAN` local edge lengths. The first stay flat.
-Where the second are frequent, all vertices stay but those that stick out alone.
+Where the second are frequent, vertices stay
+that a pass would hardly move: creases of clean meshes, but not noise that begins beside them.
 """
 
 from __future__ import annotations
@@ -12,7 +13,6 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..averages.means import padded
 from ..averages.ring_means import RingMeans
 from ..blocks import Blocks
 from ..noise.fits import fit_heights
@@ -47,44 +47,58 @@ LEAST_FREEDOM = 3.0
 LEAST_KNOWN = 0.2
 """Share of two-rings that have to be known around a vertex."""
 
-STICKS_OUT, TIMES_AROUND = 0.5, 4.0
-"""Height over the low-pass, in local edge lengths and in heights of the ring, of a vertex that sticks out."""
+HARDLY, WIDE = 0.03, 0.3
+"""Displacements in local edge lengths: their root mean square around a vertex, and its own, up to which a
+pass hardly moves it."""
+
+CUT_OFF = 0.1
+"""What one vertex counts for at most among those around it: a spike says nothing of its neighbors."""
+
+NEAR = 4
+"""Averages over the vertices around."""
+
+NO_NOISE = 0.01
+"""Root mean square of all displacements up to which there is no noise at all."""
 
 
-def find_still(
-    points: NDArray[np.float32],
-    surface: SurfaceMesh,
-    connectivity: Connectivity,
-    scales: Scales,
-    graph: FaceGraph,
-    rings: RingMeans,
-    blocks: Blocks,
+def flat_vertices(points: NDArray[np.float32], scales: Scales, graph: FaceGraph) -> NDArray[np.bool_]:
+    """Return the vertices of exactly flat parts, shape (N,), of positions (3, N)."""
+    result = np.zeros(points.shape[1], bool)
+    is_flat = _flat_faces(points, scales, graph)
+    for group in graph.groups:
+        result[group.corners[:, is_flat[group.begin : group.end]]] = True
+    return result
+
+
+def hardly_moved(
+    offsets: NDArray[np.float32], is_clean: NDArray[np.bool_], is_free: NDArray[np.bool_], rings: RingMeans
 ) -> NDArray[np.bool_]:
-    """Find out what is clean.
+    """Return vertices that a pass hardly moved and that stay therefore, shape (N,).
 
     Parameters
     ----------
-    points : ndarray, shape (3, N), float32
-        Positions.
-    surface, connectivity : SurfaceMesh, Connectivity
-        The mesh, for its faces and rings.
-    scales : Scales
-        The surface at all scales.
-    graph, rings : FaceGraph, RingMeans
-        Faces and rings.
-    blocks : Blocks
-        Threads to work on.
-
-    Returns
-    -------
-    ndarray, shape (N,), bool
-        Vertices that stay.
+    offsets : ndarray, shape (N,), float32
+        Displacements along the normals, in local edge lengths.
+    is_clean : ndarray, shape (N,), bool
+        Vertices in clean places, see `clean_places`.
+    is_free : ndarray, shape (N,), bool
+        Vertices that may move.
+    rings : RingMeans
+        Rings.
     """
-    is_still = _clean_places(points, surface, connectivity, scales.unit, rings, blocks)
-    is_flat = _flat_faces(points, scales, graph)
-    for group in graph.groups:
-        is_still[group.corners[:, is_flat[group.begin : group.end]]] = True
-    return is_still
+    squares = np.square(offsets)
+    around = rings.averaged(rings.inward(np.minimum(squares, CUT_OFF**2)[:, None]), NEAR)
+    is_calm = (rings.outward(around)[:, 0] < HARDLY**2) & (squares < WIDE**2)
+    still = is_clean & is_calm
+    rest = is_free & ~still
+    if not rest.any():
+        return still
+    strength = np.sqrt(squares[rest].mean(dtype=np.float64))
+    is_mostly_clean = np.count_nonzero(is_clean) > MOSTLY_CLEAN * len(is_clean)
+    cut = np.sqrt(np.minimum(squares[rest], CUT_OFF**2).mean(dtype=np.float64))
+    if strength < NO_NOISE or (is_mostly_clean and cut < HARDLY):
+        still = still | (squares < WIDE**2)
+    return still
 
 
 def _flat_faces(points: NDArray[np.float32], scales: Scales, graph: FaceGraph) -> NDArray[np.bool_]:
@@ -131,7 +145,7 @@ def _heights(scales: Scales, faces: NDArray[np.int32]) -> NDArray[np.float32]:
     return scales.areas[:, 0].take(faces) / scales.length.take(faces)
 
 
-def _clean_places(
+def clean_places(
     points: NDArray[np.float32],
     surface: SurfaceMesh,
     connectivity: Connectivity,
@@ -139,11 +153,24 @@ def _clean_places(
     rings: RingMeans,
     blocks: Blocks,
 ) -> NDArray[np.bool_]:
-    """Return vertices in clean places that do not stick out, shape (N,)."""
+    """Return vertices in places where two-rings are often clean, shape (N,).
+
+    Parameters
+    ----------
+    points : ndarray, shape (3, N), float32
+        Positions.
+    surface, connectivity : SurfaceMesh, Connectivity
+        The mesh, for its faces and rings.
+    unit : ndarray, shape (N,), float32
+        Local edge lengths.
+    rings : RingMeans
+        Rings.
+    blocks : Blocks
+        Threads to work on.
+    """
     n_vertices = points.shape[1]
     positions = np.ascontiguousarray(points.T, np.float64)
     used = np.flatnonzero(~connectivity.is_loose)
-    is_clean = np.zeros(n_vertices, bool)
     for n_samples in (FEW, MANY):
         centers = spread_sample(positions, used, n_samples)
         adjacency = local_adjacency(surface, connectivity, centers)
@@ -159,7 +186,7 @@ def _clean_places(
         parts = blocks.sized(256).run(look, len(centers))
         is_known, is_quiet = (np.concatenate(part) for part in zip(*parts, strict=True))
         if is_quiet.sum() < SOME_CLEAN * max(is_known.sum(), 1):
-            return is_clean
+            return np.zeros(n_vertices, bool)
     counts = np.zeros((n_vertices, 2), np.float32)
     counts[centers, 0] = is_known
     counts[centers, 1] = is_quiet
@@ -167,26 +194,4 @@ def _clean_places(
     around = rings.outward(rings.averaged(rings.inward(counts), min(n_averages, 1024)))
     # Where hardly a two-ring is known nothing is said to be clean.
     is_known = around[:, 0] > LEAST_KNOWN * len(centers) / n_vertices
-    is_clean = is_known & (around[:, 1] > MOSTLY_CLEAN * around[:, 0])
-    is_clean &= ~_sticking_out(points, unit, rings)
-    return is_clean
-
-
-def _sticking_out(
-    points: NDArray[np.float32], unit: NDArray[np.float32], rings: RingMeans
-) -> NDArray[np.bool_]:
-    """Return vertices that are far from the mean of their ring, unlike those around them, shape (N,)."""
-    rows = rings.inward(padded(points))
-    away = rings.mean(rows)
-    away -= rows
-    distance = np.sqrt((away * away).sum(axis=1)) / np.maximum(rings.inward(unit), np.float32(1e-12))
-    # A spike moves the means of its neighbors by a valence-th of its height each.
-    around = np.zeros_like(distance)
-
-    def median(part: slice, members: NDArray[np.int32]) -> None:
-        if len(members):
-            around[part] = np.median(distance.take(members), axis=0)
-
-    rings.for_parts(median)
-    sticks_out = (distance > STICKS_OUT) & (distance > TIMES_AROUND * around)
-    return rings.outward(sticks_out)
+    return is_known & (around[:, 1] > MOSTLY_CLEAN * around[:, 0])

@@ -22,6 +22,7 @@ from ..denoising.constraints import Constraints
 from ..denoising.report import Callback
 from ..learned.engine import FaceEngine
 from ..learned.net import REPEATS, load_net
+from ..learned.stillness import clean_places, flat_vertices, hardly_moved
 from ..noise.field import NoiseBelief, find_belief
 from ..settings import DenoiseSettings
 from ..surface.connectivity import Connectivity
@@ -29,12 +30,6 @@ from ..surface.surface_mesh import SurfaceMesh
 
 WEAKEST = 0.25
 """Strength below which results are mixed with the input instead: nothing is learned of noise that weak."""
-
-LEAST_NOISE = 0.01
-"""Rms displacement along the normals, in local edge lengths, up to which a pass found no noise."""
-
-LEAST_BESIDE_CLEAN, CLEAN_SHARE = 0.03, 0.25
-"""The same where at least such a share of the vertices is clean: the rest are creases."""
 
 WIDTHS = {"AUTO": 0.0, "FINE": -1.0, "WIDE": 1.0}
 
@@ -105,35 +100,35 @@ def learned_shrinkage(
     log_strength = math.log(max(settings.strength, WEAKEST))
     width = WIDTHS[settings.noise]
     fitted, n_passes, is_stopped = points, 0, False
-    is_free = np.ones(points.shape[1], bool)
-    is_free[constraints.pinned] = False
-    share_clean, unit = 0.0, np.ones(points.shape[1], np.float32)
+    is_movable = np.ones(points.shape[1], bool)
+    is_movable[constraints.pinned] = False
+    is_free = is_movable.copy()
+    unit = np.ones(points.shape[1], np.float32)
     try:
-        while n_passes < settings.passes and amount > 0.0 and engine.graph.n_faces:
-            scales, features = engine.describe(fitted, log_strength, width)
-            tick()
-            # Steps of voxels and terraces are flat and smooth as well.
-            if n_passes == 0 and settings.noise != "WIDE":
-                is_still = engine.find_still(points, surface, connectivity, scales, blocks)
-                is_free &= ~is_still
-                share_clean = float(is_still[~connectivity.is_loose].mean())
-                if not is_free.any():
-                    break
-            moved = engine.fit.fit(points, engine.normals(net, scales, features, tick), is_free)
+        while n_passes < settings.passes and amount > 0.0 and is_free.any() and engine.graph.n_faces:
+            taken = engine.taken(points, fitted) if n_passes else None
+            scales, features = engine.describe(fitted, taken, log_strength, width)
             unit = scales.unit
+            # Steps of voxels and terraces are flat and smooth as well.
+            is_first = n_passes == 0 and settings.noise != "WIDE"
+            if is_first:
+                is_free &= ~flat_vertices(points, scales, engine.graph)
+            tick()
+            moved = engine.fit.fit(points, engine.normals(net, scales, features, tick), is_free)
             del scales, features
             constraints.apply(moved, points)
-            if n_passes == 0 and settings.noise != "WIDE":
-                offsets = (engine.offsets(points, moved) / unit)[is_free]
-                least = LEAST_BESIDE_CLEAN if share_clean >= CLEAN_SHARE else LEAST_NOISE
-                if np.sqrt(np.mean(np.square(offsets, dtype=np.float64))) < least:
-                    share_clean = 1.0
-                    break
+            if is_first:
+                is_clean = clean_places(points, surface, connectivity, unit, engine.rings, blocks)
+                offsets = engine.offsets(points, moved) / unit
+                is_free &= ~hardly_moved(offsets, is_clean, is_free, engine.rings)
+                moved[:, ~is_free] = points[:, ~is_free]
             fitted, n_passes = moved, n_passes + 1
             tick()
             tick()
     except _Stopped:
         is_stopped = True
+    n_still = int(np.count_nonzero(is_movable & ~is_free))
+    share_clean = n_still / max(int(np.count_nonzero(is_movable)), 1)
     belief = find_belief(points, fitted, unit, engine, edge, share_clean)
     # The displacement is added, so that what did not move keeps its bits in any precision.
     change = (fitted - points).astype(noisy.dtype)

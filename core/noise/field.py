@@ -25,9 +25,6 @@ from .estimate import NoiseEstimate
 if TYPE_CHECKING:
     from ..learned.engine import FaceEngine
 
-SPREAD_AVERAGES = 64
-"""Averages over which squares are spread: about six rings."""
-
 SPIKE, TIMES_AROUND = 1.0, 4.0
 """Displacement in local edge lengths, and in strengths of the noise around, of a spike."""
 
@@ -127,16 +124,11 @@ def find_field(before: NDArray[np.float32], after: NDArray[np.float32], engine: 
     if not engine.graph.n_faces:
         nothing = np.zeros(before.shape[1], np.float32)
         return NoiseField(nothing, nothing.copy())
-    rings = engine.rings
-    offset = rings.inward(engine.offsets(before, after)[:, None])
-    mean = rings.mean(offset)
-    moments = np.concatenate((offset * offset, offset * mean, mean * mean), axis=1)
-    moments = rings.outward(rings.averaged(np.pad(moments, ((0, 0), (0, 1))), SPREAD_AVERAGES))
-    square = np.maximum(moments[:, 0], 0)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        correlation = np.clip(np.nan_to_num(moments[:, 1] / square), 0.0, 0.999)
-        width = np.where(correlation > 0.02, 0.5 / np.sqrt(-np.log(correlation)), 0.0)
-    return NoiseField(np.sqrt(square), width.astype(np.float32))
+    strength, correlation = engine.taken(before, after)
+    is_wide = correlation > 0.02
+    width = np.zeros_like(strength)
+    width[is_wide] = 0.5 / np.sqrt(-np.log(np.minimum(correlation[is_wide], np.float32(0.999))))
+    return NoiseField(strength, width)
 
 
 def find_belief(

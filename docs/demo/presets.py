@@ -91,7 +91,7 @@ def compared(obj: bpy.types.Object, kind: Kind) -> list[Column]:
         columns.append(Column(copy_with_vertices(obj, preset.label, result.vertices), preset.label, words))
         print(
             f"{preset.label}: {words}; moved {moved:.3f} edge lengths, "
-            f"{result.report.flipped_faces} flipped, {result.report.seconds:.1f} s, {result.report.recipe}",
+            f"{result.report.flipped_faces} flipped, {result.report.seconds:.1f} s",
             flush=True,
         )
     return columns

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 
-"""Render the pictures of the page *How AUTO decides*: scans as they are, after AUTO and after the baseline.
+"""Render the pictures of the page *How AUTO works*: scans as they are, after AUTO and after the baseline.
 
 Run it with the Python of a bpy environment. It reads scans from the folder that the variable FRAMELET_MESHES
 names, skips those that are not there, and writes a picture of each to `docs/images`. The scans themselves are
@@ -24,7 +24,6 @@ load_framelet()
 
 from framelet.core import PRESETS, denoise  # noqa: E402
 from framelet.operators import mesh_bridge  # noqa: E402
-from framelet.operators.chosen_values import chosen_lines  # noqa: E402
 from framelet.operators.command_line.blender_output import captured_output  # noqa: E402
 from meshes import copy_with_vertices  # noqa: E402
 from picture import DIRECTION, Column, View, render_picture  # noqa: E402
@@ -98,13 +97,13 @@ def denoised(obj: bpy.types.Object, strengths: tuple[float, ...]) -> list[Column
         title, caption = "Bilateral", f"{report.iterations} iterations"
         if report.noise is not None:
             title = "Automatic" if settings.strength == 1.0 else f"Strength {settings.strength:g}"
-            caption = "\n".join(chosen_lines(report.recipe))
-            noise = report.noise.rms if report.noise.is_impulsive else report.noise.sigma
-            kind = "impulsive noise" if report.noise.is_impulsive else "noise"
-            print(f"Measured: {kind} of {noise / report.mean_edge_length:.3f} edge lengths.")
+            noise = report.noise
+            caption = f"noise of {noise.sigma_edges:.2f} edges"
+            low, high = (value / report.mean_edge_length for value in (noise.sigma_low, noise.sigma_high))
+            print(f"Noise of {low:.3f} to {high:.3f} edge lengths, {noise.width:.1f} edges wide.")
         columns.append(Column(copy_with_vertices(obj, title, result.vertices), title, caption))
         print(
-            f"{title}: {report.recipe or caption}; "
+            f"{title}: {caption}; "
             f"moved {report.displacement_rms / report.mean_edge_length:.3f} edge lengths (rms), "
             f"{report.flipped_faces} faces turned over, {report.seconds:.1f} s.",
             flush=True,

@@ -90,7 +90,7 @@ def test_strength_and_width_are_those_of_a_loop(rng):
     heights = 0.1 * rng.normal(size=clean.n_vertices)
     field = noise_field(lifted(clean, heights), clean.vertices)
     offset = (vertex_normals(clean) * (lifted(clean, heights).vertices - clean.vertices)).sum(axis=1)
-    wide = averaging(clean, field_module.SPREAD_AVERAGES)
+    wide = averaging(ring_matrix(clean), field_module.SPREAD_AVERAGES)
     square, product = wide @ offset**2, wide @ (offset * (ring_matrix(clean) @ offset))
     ratio = np.clip(product / square, 0, 0.999)
     width = [0.5 / np.sqrt(-np.log(r)) if r > 0.02 else 0.0 for r in ratio]

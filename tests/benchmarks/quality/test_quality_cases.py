@@ -16,7 +16,7 @@ FOLDER = Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER))
 
 from cases import CaseName, load_case  # noqa: E402
-from noise import NOISES  # noqa: E402
+from noise import NOISES, correlated, half_of  # noqa: E402
 from shapes import MADE, QUICK, gear, rounded_cube  # noqa: E402
 
 
@@ -28,16 +28,32 @@ def test_noise_has_its_size_and_its_seed(noise):
     assert not np.array_equal(moved, NOISES[noise](clean, 4))
     offset = (moved - clean.vertices) / mean_edge_length(clean)
     size = np.linalg.norm(offset, axis=1)
-    sigma = float(noise.split()[1])
+    kind, *sigmas = noise.split()
     is_moved = size > 0
-    assert abs(np.sqrt((size[is_moved] ** 2).mean()) / sigma - 1) < 0.08
     along = np.abs((offset * vertex_normals(clean)).sum(axis=1)[is_moved]) / size[is_moved]
-    if noise.startswith("direction"):
+    if kind == "direction":
         assert abs(along.mean() - 0.5) < 0.05  # of directions uniform on the sphere
+    elif kind == "view":
+        assert np.ptp(np.abs(offset / size[:, None]), axis=0).max() < 1e-6
     else:
         assert along.min() > 1 - 1e-6
-    share = 0.5 if noise.startswith("impulsive") else 1.0
-    assert abs(is_moved.sum() - share * len(size)) <= 1
+    parts = {"uneven": [~half_of(clean), half_of(clean)]}.get(kind, [is_moved])
+    if kind == "correlated":
+        sigmas = [0.2]
+    for part, sigma in zip(parts, sigmas, strict=True):
+        rms = np.sqrt((size[part] ** 2).mean()) / float(sigma)
+        assert 1.0 < rms < 2.0 if kind == "view" else abs(rms - 1) < 0.08
+    share = {"impulsive": 0.5, "sparse": 0.2}.get(kind, 1.0)
+    assert abs(is_moved.mean() - share) < (0.04 if kind == "sparse" else 0.001)
+
+
+@pytest.mark.parametrize("n_averages", [1, 2, 4])
+def test_correlated_noise_is_alike_at_neighbors(n_averages):
+    clean = rounded_cube(16)
+    heights = ((correlated(clean, 0, n_averages) - clean.vertices) * vertex_normals(clean)).sum(axis=1)
+    one, other = clean.edges.T
+    alike = np.corrcoef(heights[one], heights[other])[0, 1]
+    assert alike > {1: 0.25, 2: 0.45, 4: 0.6}[n_averages]
 
 
 def test_noise_along_normals_is_that_of_the_core():

@@ -40,7 +40,7 @@ def test_pairs_of_faces(name):
 
 @GRAPH
 def test_tables_of_faces(name):
-    """Corners, the faces across their edges, and the pairs there; where there is none, itself and the last."""
+    """Corners, the faces across their edges, and the pairs there; for none, itself and the last."""
     mesh = GRAPHS[name]()
     graph, pairs, order, faces = graph_of(mesh), pairs_of(mesh), face_order(mesh), faces_of(mesh)
     assert graph.order is None or graph.order.tolist() == order

@@ -4,14 +4,23 @@
 
 import numpy as np
 import pytest
-from checks import random_rotation
+from checks import lengths, random_rotation
 from framelet.core import SurfaceMesh, connect
 from framelet.core.averages import ring_means
 from framelet.core.learned import features as features_module
 from framelet.core.learned import scales as scales_module
-from framelet.core.learned.engine import FaceEngine
+from framelet.core.learned.engine import LONG, FaceEngine, long_edges
 from kinds import ALONE, KINDS
-from learned_twins import AVERAGES, FLOOR, face_order, pairs_of, slow_features, slow_scales
+from learned_twins import (
+    AVERAGES,
+    FLOOR,
+    LEAST_LENGTH,
+    SHRUNK,
+    face_order,
+    pairs_of,
+    slow_features,
+    slow_scales,
+)
 from meshes import MESHES, noisy, quad_torus, triangle_grid, triangle_torus, union
 from stars import relabeled
 
@@ -52,8 +61,14 @@ def points_of(mesh):
     return np.ascontiguousarray(mesh.vertices.T, np.float32)
 
 
+def matrix_of(rings):
+    """Return ring means as a dense matrix."""
+    n = len(rings.place)
+    return rings.outward(rings.mean(rings.inward(np.eye(n))))
+
+
 def by_pair(graph, pairs):
-    """Return the number of each of the twin's pairs in the graph; faces with several edges in common in order."""
+    """Return the number of each of the twin's pairs in the graph."""
     number, taken = {}, set()
     for place, (f, g) in enumerate(zip(graph.first[:-1].tolist(), graph.second[:-1].tolist(), strict=True)):
         number.setdefault((f, g), []).append(place)
@@ -66,7 +81,27 @@ def by_pair(graph, pairs):
 
 
 def test_the_constants_of_the_twins():
-    assert (scales_module.AVERAGES, features_module.FLOOR) == (AVERAGES, np.float32(FLOOR))
+    assert (AVERAGES, np.float32(FLOOR)) == (scales_module.AVERAGES, features_module.FLOOR)
+    assert np.float32(SHRUNK) == scales_module.SHRUNK
+    assert np.float32(LEAST_LENGTH) == scales_module.LEAST_LENGTH
+
+
+@pytest.mark.parametrize("kind", ["irregular torus", "quad torus", "mixed sheet", "three pages", "border"])
+def test_long_edges(kind, rng):
+    """Edges many times as long as the geometric mean of those at one of their ends."""
+    mesh = KINDS[kind]()
+    points = mesh.vertices.copy()
+    far = rng.permutation(mesh.n_vertices)[: 1 + mesh.n_vertices // 20]
+    points[far] += 100 * rng.normal(size=(len(far), 3))
+    mesh, connectivity = mesh.with_vertices(points), connect(mesh)
+    length = lengths(points[mesh.edges[:, 0]] - points[mesh.edges[:, 1]])
+    has_face = connectivity.edge_face_count > 0
+    expected = np.zeros(mesh.n_edges, bool)
+    for number in np.flatnonzero(has_face):
+        at_ends = [has_face & (mesh.edges == v).any(axis=1) for v in mesh.edges[number]]
+        expected[number] = length[number] > LONG * np.exp(min(np.log(length[own]).mean() for own in at_ends))
+    assert long_edges(mesh, connectivity).tolist() == expected.tolist()
+    assert expected.any() and not expected.all()
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -74,7 +109,7 @@ def test_scales(kind, rng):
     mesh = noisy(KINDS[kind](), rng)
     engine = engine_of(mesh)
     scales = scales_module.find_scales(points_of(mesh), engine.graph, engine.rings)
-    normals, centroids, areas, length = slow_scales(mesh)
+    normals, centroids, areas, length = slow_scales(mesh, matrix_of(engine.rings))
     assert np.abs(scales.areas - areas).max() < 1e-5
     assert np.abs(scales.centroids - centroids.transpose(2, 0, 1)).max() < 1e-4
     assert np.abs(scales.length - length).max() < 1e-5
@@ -94,8 +129,14 @@ def test_features(kind, log_strength, width, rng, monkeypatch):
     engine = engine_of(mesh)
     scales, found = engine.describe(points_of(mesh), log_strength, width)
     # The twin takes the same scales, so that what rounding does to thin faces does not count.
-    same = (scales.normals.transpose(1, 2, 0), scales.centroids.transpose(1, 2, 0), scales.areas, scales.length)
-    faces, pairs = slow_features(mesh, [x.astype(float) for x in same], log_strength, width, 4)
+    same = (
+        scales.normals.transpose(1, 2, 0),
+        scales.centroids.transpose(1, 2, 0),
+        scales.areas,
+        scales.length,
+    )
+    same = [x.astype(float) for x in same]
+    faces, pairs = slow_features(mesh, matrix_of(engine.rings), same, log_strength, width, 4)
     assert found.faces.shape == faces.shape and found.faces.dtype == np.float32
     columns = np.abs(found.faces - faces).max(axis=0)
     # Deviations come out of differences of large squares.

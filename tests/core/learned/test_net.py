@@ -20,12 +20,16 @@ from meshes import MESHES, noisy, prism, triangle_torus, union
 
 ROOT = Path(core.__file__).resolve().parent.parent
 NETS = {
-    **{name: KINDS[name] for name in ("irregular torus", "quad torus", "mixed sheet", "three pages", "border")},
+    **{
+        name: KINDS[name]
+        for name in ("irregular torus", "quad torus", "mixed sheet", "three pages", "border")
+    },
     "polygons": lambda: union(prism(), prism(5), MESHES["tetrahedron"]()),
     "single triangle": MESHES["single triangle"],
     "single quad": MESHES["single quad"],
 }
 REPEATS = (1, 2, 1)
+N_LAYERS = len(REPEATS)
 
 
 @pytest.fixture
@@ -34,7 +38,7 @@ def short(monkeypatch):
     monkeypatch.setattr(net, "REPEATS", REPEATS)
 
 
-def random_arrays(rng, n_layers=len(REPEATS)):
+def random_arrays(rng, n_layers=N_LAYERS):
     """Return arrays of the shapes that come with Framelet, as a net begins."""
     with np.load(net.WEIGHTS) as file:
         shapes = {name: file[name].shape for name in file.files if file[name].dtype.kind == "f"}
@@ -60,7 +64,12 @@ def test_the_net_is_a_loop_over_faces_and_pairs(name, rng):
     mesh, arrays = noisy(NETS[name](), rng), random_arrays(rng)
     engine, scales, features = described(mesh)
     # Copies, as the net works in place.
-    before = [scales.normals.transpose(1, 2, 0), scales.centroids.transpose(1, 2, 0), scales.areas, scales.length]
+    before = [
+        scales.normals.transpose(1, 2, 0),
+        scales.centroids.transpose(1, 2, 0),
+        scales.areas,
+        scales.length,
+    ]
     before = [x.astype(float) for x in before]
     found = net.Net(arrays).normals(scales, features, engine.graph)
     # The pairs of the twin have the features of the same pairs of the graph.

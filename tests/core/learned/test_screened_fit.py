@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 from checks import assert_same_bits
-from framelet.core import SurfaceMesh, connect
+from framelet.core import connect
 from framelet.core.blocks import Blocks
 from framelet.core.learned import screened_fit
 from framelet.core.learned.engine import FaceEngine

@@ -1,0 +1,33 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a pass took away: how strong it is around each vertex, and how alike at neighbors."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..averages.ring_means import RingMeans
+
+SPREAD_AVERAGES = 64
+"""Averages over which squares are spread: about six rings."""
+
+
+class Taken(NamedTuple):
+    """Root mean square of displacements around vertices, and correlation with the ring, shape (N,)."""
+
+    strength: NDArray[np.float32]
+    correlation: NDArray[np.float32]
+
+
+def find_taken(offsets: NDArray[np.float32], rings: RingMeans) -> Taken:
+    """Return strength and correlation of displacements along the normals, shape (N,)."""
+    offset = rings.inward(offsets[:, None])
+    mean = rings.mean(offset)
+    moments = np.concatenate((offset * offset, offset * mean), axis=1)
+    moments = rings.outward(rings.averaged(moments, SPREAD_AVERAGES))
+    square = np.maximum(moments[:, 0], 0)
+    correlation = moments[:, 1] / np.maximum(square, np.float32(1e-20))
+    return Taken(np.sqrt(square), np.clip(correlation, -1, 1, out=correlation))

@@ -1,0 +1,60 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
+"""The page *How AUTO works* names the numbers of the code."""
+
+from pathlib import Path
+
+import numpy as np
+from framelet.core.learned import engine, features, net, scales, screened_fit, stillness
+from framelet.core.methods import learned_shrinkage
+
+PAGE = (Path(__file__).resolve().parents[2] / "docs" / "how_auto_works.md").read_text(encoding="utf-8")
+WORDS = " ".join(PAGE.split())
+
+
+def test_scales():
+    names = [f"L_{k}" for k in scales.AVERAGES]
+    assert f"itself and {', '.join(names[:-1])} and {names[-1]} of its positions" in WORDS
+    assert f"more than {engine.LONG:g} times as long" in WORDS
+    assert f"after {scales.LENGTH_AVERAGES} averages" in WORDS
+    assert f"around a vertex on {names[scales.LENGTH_SCALE - 1]}" in WORDS
+
+
+def test_features():
+    """The counts in the rows of each table sum up to what its head says."""
+    heads = {"Face": features.N_FACE, "Pair of faces across an edge": features.N_EDGE}
+    for name, total in heads.items():
+        head = f"| {name}, {total} numbers | |"
+        rows = PAGE.split(head)[1].split("\n\n")[0].splitlines()[2:]
+        assert sum(int(row.rsplit("|", 2)[1]) for row in rows) == total
+    assert f"log(x² + {features.FLOOR:.4f})" in WORDS
+    assert f"spread by A^{features.SPREAD_AVERAGES}" in WORDS
+    assert f"parts below {features.LEAST_ISLAND} faces together" in WORDS
+    assert f"below a Strength of {learned_shrinkage.WEAKEST}" in WORDS.lower().replace("strength", "Strength")
+
+
+def test_the_net():
+    with np.load(net.WEIGHTS) as file:
+        learned = [n for n in file.files if file[n].dtype.kind == "f" and not n.endswith(("_mean", "_scale"))]
+        n_numbers = sum(file[name].size for name in learned)
+    assert f"{n_numbers:,} numbers. Inputs are standardized and cut off at {net.CLIP:g}." in WORDS
+    assert f"the state V (3 x {scales.N_SCALES}) and {net.HIDDEN} scalars" in WORDS
+    assert f"with {net.INPUT_HIDDEN} hidden units. Each of {len(net.REPEATS)} layers" in WORDS
+    assert f"repeated {', '.join(map(str, net.REPEATS))} times" in WORDS
+
+
+def test_the_fit():
+    assert f"({screened_fit.NORMAL_PULL} <m_v, v - p_v>² + {screened_fit.TANGENT_PULL} |" in WORDS
+    assert f"{screened_fit.STEPS} Chebyshev steps" in WORDS
+    assert f"from {screened_fit.LOWEST} to {screened_fit.HIGHEST}." in WORDS
+    lean = round(np.degrees(np.arccos(screened_fit.LEAN)))
+    assert f"more than {lean} degrees" in WORDS
+    rounds, steps = screened_fit.UNFOLDING_ROUNDS, screened_fit.STEPS // 2
+    assert f"up to {rounds} times, and {steps} steps follow" in WORDS
+
+
+def test_what_is_clean():
+    assert f"to within {stillness.CLEAN} local edge lengths" in WORDS
+    assert f"by less than {stillness.HARDLY} local edge lengths" in WORDS
+    assert f"is less than {stillness.NO_NOISE} everywhere (rms), or less than {stillness.HARDLY}" in WORDS
