@@ -35,7 +35,7 @@ demo: ## Denoise a noisy mesh without a screen; pictures and numbers go to build
 test: test-core test-$(BLENDER) test-installed-$(BLENDER) ## Test on one Blender: core, operators, installed zip
 
 .PHONY: test-all
-test-all: lint test-core $(BLENDERS:%=test-%) $(BLENDERS:%=test-installed-%) ## Lint, then test on every supported Blender
+test-all: lint test-core test-training $(BLENDERS:%=test-%) $(BLENDERS:%=test-installed-%) ## Lint, then test on every supported Blender
 
 .PHONY: lint
 lint: ## Check style and types
@@ -51,6 +51,14 @@ format: ## Format the code and fix what ruff can fix
 .PHONY: test-core
 test-core: ## Test core/ and the release rules on plain Python and NumPy
 	$(ENVIRONMENT) run core --timeout $(TIMEOUT) -- $(PYTEST) tests/core tests/release tests/benchmarks
+
+.PHONY: test-training
+test-training: ## Train for a minute, and test the training
+	$(ENVIRONMENT) run training --timeout $(TIMEOUT) -- -m pytest tests/training
+
+.PHONY: train
+train: ## Make meshes, train for hours and write the arrays of the net; goes on where it was cut off
+	$(ENVIRONMENT) run training -- -m training --write
 
 # test-4.2, test-4.5, test-5.2
 .PHONY: $(BLENDERS:%=test-%)

@@ -11,7 +11,7 @@ import ctypes
 import sys
 import time
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -127,10 +127,33 @@ def train(
     output: Path,
     seconds: float,
     seed: int,
+    target: Path,
+    *,
     warm_start: Path | None = None,
     rate: float = LARGEST_RATE,
+    provenance: Mapping[str, str] | None = None,
 ) -> None:
-    """Train for some seconds of wall time, in all runs together; checkpoints and a log go to `output`."""
+    """Train the net and write its arrays.
+
+    Parameters
+    ----------
+    shapes : Path
+        Folder of the meshes. New ones are seen while training.
+    output : Path
+        Folder of the checkpoint and the log. With a checkpoint there, training goes on from it.
+    seconds : float
+        Wall time, in all runs together; the learning rate falls to zero over it.
+    seed : int
+        Seed of weights and noise.
+    target : Path
+        File for the arrays.
+    warm_start : Path, optional
+        Checkpoint of another run to begin with.
+    rate : float
+        Largest learning rate.
+    provenance : mapping, optional
+        Texts that are written beside the arrays.
+    """
     keep_memory()
     torch.set_num_threads(1)
     output.mkdir(parents=True, exist_ok=True)
@@ -154,7 +177,7 @@ def train(
         elapsed, step = state["elapsed"], state["step"]
         rng = np.random.default_rng(seed + step)
     elif warm_start is not None:
-        net.load_state_dict(torch.load(warm_start, weights_only=False)["net"])
+        net.load_state_dict(torch.load(warm_start, weights_only=False)["average"])
     else:
         standardize(net, validation)
     if step == 0:
@@ -201,4 +224,4 @@ def train(
         if step % VALIDATION_STEPS == 0 or elapsed >= seconds:
             mean, text = validate(average, validation)
             print(f"{elapsed:6.0f} s step {step} validation {mean:.4f}: {text}", file=log)
-    average.export(output / "weights.npz", steps=str(step), seed=str(seed))
+    average.export(target, steps=str(step), **(provenance or {}))

@@ -100,7 +100,9 @@ class ScreenedFit:
                 np.maximum(longest, edge.sum(axis=0), out=longest)
             area /= np.maximum(longest, np.float32(1e-30))
             area *= np.float32(1.0 / NEEDLE)
-            np.minimum(area, np.float32(1), out=weights[faces])
+            np.minimum(area, np.float32(1), out=area)
+            # Squared, as the error of a normal moves the far ends by its lever.
+            np.square(area, out=weights[faces])
 
         self._graph.for_faces(kernel)
         return weights

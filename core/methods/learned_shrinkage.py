@@ -31,6 +31,9 @@ from ..surface.surface_mesh import SurfaceMesh
 WEAKEST = 0.25
 """Strength below which results are mixed with the input instead: nothing is learned of noise that weak."""
 
+FARTHEST = np.float32(30)
+"""Displacement in local edge lengths from which a vertex stays: the tip of a spire, and no spike of a scan."""
+
 WIDTHS = {"AUTO": 0.0, "FINE": -1.0, "WIDE": 1.0}
 
 
@@ -121,6 +124,9 @@ def learned_shrinkage(
                 is_clean = clean_places(points, surface, connectivity, unit, engine.rings, blocks)
                 offsets = engine.offsets(points, moved) / unit
                 is_free &= ~hardly_moved(offsets, is_clean, is_free, engine.rings)
+            if n_passes == 0:
+                step = moved - points
+                is_free &= np.sqrt((step * step).sum(axis=0)) < FARTHEST * unit
                 moved[:, ~is_free] = points[:, ~is_free]
             fitted, n_passes = moved, n_passes + 1
             tick()

@@ -13,23 +13,26 @@ import numpy as np
 from .catalog import make
 
 
-def main() -> int:
-    """Make the meshes asked for; skip those that fail."""
-    parser = argparse.ArgumentParser(prog="python -m training.shapes", description=__doc__)
-    parser.add_argument("--out", type=Path, required=True, help="folder of the .npz files")
-    parser.add_argument("--count", type=int, default=600, help="number of meshes")
-    parser.add_argument("--first", type=int, default=0, help="index of the first mesh")
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--keep", action="store_true", help="leave files that exist")
-    options = parser.parse_args()
-    options.out.mkdir(parents=True, exist_ok=True)
-    for index in range(options.first, options.first + options.count):
-        path = options.out / f"{index:04d}.npz"
-        if options.keep and path.exists():
+def make_shapes(out: Path, count: int, seed: int, first: int = 0, *, keep: bool = False) -> None:
+    """Write meshes as files; skip those that fail.
+
+    Parameters
+    ----------
+    out : Path
+        Folder of the files.
+    count, seed, first : int
+        Number of meshes, and what they depend on, see `catalog.make`.
+    keep : bool
+        Leave files that exist.
+    """
+    out.mkdir(parents=True, exist_ok=True)
+    for index in range(first, first + count):
+        path = out / f"{index:04d}.npz"
+        if keep and path.exists():
             continue
         start = time.process_time()
         try:
-            mesh, kind = make(options.seed, index)
+            mesh, kind = make(seed, index)
         except ValueError as error:
             print(f"{index:04d} skipped: {error}", flush=True)
             path.unlink(missing_ok=True)
@@ -47,6 +50,18 @@ def main() -> int:
             )
         part.replace(path)
         print(f"{index:04d} {kind} {mesh.n_faces} faces, {time.process_time() - start:.1f} s", flush=True)
+
+
+def main() -> int:
+    """Make the meshes asked for."""
+    parser = argparse.ArgumentParser(prog="python -m training.shapes", description=__doc__)
+    parser.add_argument("--out", type=Path, required=True, help="folder of the .npz files")
+    parser.add_argument("--count", type=int, default=1050, help="number of meshes")
+    parser.add_argument("--first", type=int, default=0, help="index of the first mesh")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--keep", action="store_true", help="leave files that exist")
+    options = parser.parse_args()
+    make_shapes(options.out, options.count, options.seed, options.first, keep=options.keep)
     return 0
 
 

@@ -45,7 +45,7 @@ def needle_weights(mesh):
     for f in face_order(mesh):
         points = mesh.vertices[faces[f]]
         longest = max(((points - np.roll(points, 1, axis=0)) ** 2).sum(axis=1))
-        weights.append(min(1.0, 10 * 2 * np.linalg.norm(newell(points)) / max(longest, 1e-30)))
+        weights.append(min(1.0, 10 * 2 * np.linalg.norm(newell(points)) / max(longest, 1e-30)) ** 2)
     return weights
 
 
