@@ -30,7 +30,10 @@ CHECKPOINT_SECONDS = 120
 VALIDATION_STEPS = 1500
 LOSS_FLOOR = 0.004
 AVERAGE = 0.998
-"""Decay of the running mean of the weights, which is what is exported."""
+"""Decay of the running mean of the weights, which is what is exported; less at the start."""
+
+WARM_UP = 0.02
+"""Share of the time in which the learning rate rises."""
 
 INSIDE_OUT = 0.35
 """Share of the draws that are turned inside out."""
@@ -187,7 +190,7 @@ def train(
     recent: list[tuple[float, float]] = []
     while elapsed < seconds:
         share = elapsed / seconds
-        current = rate * 0.5 * (1 + np.cos(np.pi * share)) * min(1.0, (step + 1) / 300)
+        current = rate * 0.5 * (1 + np.cos(np.pi * share)) * min(1.0, share / WARM_UP)
         for group in optimizer.param_groups:
             group["lr"] = current
         if step % 200 == 0:
@@ -208,7 +211,7 @@ def train(
         optimizer.step()
         with torch.no_grad():
             for own, other in zip(average.parameters(), net.parameters(), strict=True):
-                own.lerp_(other, 1 - AVERAGE)
+                own.lerp_(other, max(1 - AVERAGE, 1 / (1 + 0.1 * step)))
         recent.append(losses)
         step += 1
         elapsed = time.perf_counter() - began
