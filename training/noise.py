@@ -59,8 +59,8 @@ def directions(mesh: SampleMesh, rng: np.random.Generator) -> tuple[NDArray[np.f
 
 def correlated(mesh: SampleMesh, rng: np.random.Generator) -> tuple[NDArray[np.float64], float]:
     """Smooth over 1 to 12 rings, half of it together with white noise."""
-    n_averages = round(log_uniform(rng, 1, 100))
-    sigma = log_uniform(rng, 0.04, 0.35) * min(1.0 + 0.03 * n_averages, 2.0)
+    n_averages = round(log_uniform(rng, 1, 60))
+    sigma = log_uniform(rng, 0.03, 0.35) * min(1.0 + 0.03 * n_averages, 2.0)
     heights = sigma * _wide(mesh, rng, n_averages)
     if rng.random() < 0.5:
         heights += log_uniform(rng, 0.02, 0.3) * rng.normal(size=mesh.n_vertices)
@@ -144,15 +144,15 @@ def none(mesh: SampleMesh, rng: np.random.Generator) -> tuple[NDArray[np.float64
 
 
 MIXTURE: dict[Draw, float] = {
-    white: 0.27,
-    directions: 0.07,
-    correlated: 0.20,
+    white: 0.23,
+    directions: 0.06,
+    correlated: 0.27,
     uneven: 0.12,
-    impulsive: 0.10,
-    spikes: 0.04,
-    quantized: 0.03,
+    impulsive: 0.09,
+    spikes: 0.03,
+    quantized: 0.02,
     voxels: 0.2,
-    range_image: 0.09,
+    range_image: 0.1,
     none: 0.05,
 }
 """How often each kind is drawn; voxels on meshes that have them."""

@@ -32,6 +32,9 @@ LOSS_FLOOR = 0.004
 AVERAGE = 0.998
 """Decay of the running mean of the weights, which is what is exported; less at the start."""
 
+TOLD = 0.3
+"""Share of the draws where the net is told how wide the noise is."""
+
 WARM_UP = 0.02
 """Share of the time in which the learning rate rises."""
 
@@ -49,7 +52,7 @@ class Draw:
 
     def __init__(self, mesh: SampleMesh, rng: np.random.Generator, *, is_told: bool | None = None) -> None:
         positions, width, self.kind = noise.draw(mesh, rng)
-        is_told = rng.random() < 0.4 if is_told is None else is_told
+        is_told = rng.random() < TOLD if is_told is None else is_told
         self.width = width if is_told else 0.0
         self.engine = mesh.engine.placed(mesh.surface.with_vertices(positions), mesh.connectivity)
         self.points = np.ascontiguousarray(positions.T, np.float32)
