@@ -150,7 +150,7 @@ MIXTURE: dict[Draw, float] = {
     uneven: 0.12,
     impulsive: 0.09,
     spikes: 0.03,
-    quantized: 0.02,
+    quantized: 0.05,
     voxels: 0.2,
     range_image: 0.1,
     none: 0.05,

@@ -35,6 +35,15 @@ STEPS = 12
 NEEDLE = 0.1
 """Height over longest edge below which a face counts less: its normal says little about where it is."""
 
+OUTLIER = 5.0
+"""Displacement in units of what is usual around a vertex from which it is an outlier."""
+
+OUTLIER_AVERAGES = 32
+"""Averages over which the usual displacement is taken."""
+
+LEAST_OUTLIERS = 5e-4
+"""Share of the vertices from which outliers matter."""
+
 LEAN = 0.5
 """Cosine to its wanted normal below which a face is folded: 60 degrees."""
 
@@ -83,6 +92,9 @@ class ScreenedFit:
         if is_free is not None and is_free.all():
             is_free = None
         fitted = self._solved(points, normals, weights, STEPS, is_free)
+        start = self._without_outliers(points, fitted, is_free)
+        if start is not None:
+            fitted = self._solved(start, normals, weights, STEPS, is_free)
         unfolded = self._unfolded(fitted, normals, is_free)
         return fitted if unfolded is None else self._solved(unfolded, normals, weights, STEPS // 2, is_free)
 
@@ -228,6 +240,37 @@ class ScreenedFit:
 
         graph.blocks.run(move, n_vertices)
         return result
+
+    def _without_outliers(
+        self, points: NDArray[np.float32], fitted: NDArray[np.float32], is_free: NDArray[np.bool_] | None
+    ) -> NDArray[np.float32] | None:
+        """Return positions to hold vertices at: those given, but outliers at the height of their rings.
+
+        Squares are not robust: a spike that is held where it is lifts all vertices around. None without
+        outliers.
+        """
+        rings = self._rings
+        rows, step = rings.inward(padded(points)), rings.inward(padded(fitted - points))
+        distance = np.sqrt((step * step).sum(axis=1))[:, None]
+        usual = rings.averaged(distance.copy(), OUTLIER_AVERAGES)
+        usual = rings.averaged(np.minimum(distance, 2 * usual), OUTLIER_AVERAGES)
+        is_out = (distance > OUTLIER * usual)[:, 0]
+        if is_free is not None:
+            is_out &= rings.inward(is_free)
+        if np.count_nonzero(is_out) < LEAST_OUTLIERS * len(is_out):
+            return None
+        # Means over those in the ring that are no outliers; a fourth number counts them.
+        others = rows.copy()
+        others[:, 3] = 1
+        others[is_out] = 0
+        means = rings.mean(others)
+        out = np.flatnonzero(is_out & (means[:, 3] > 0))
+        away = means[out] / means[out, 3:] - rows[out]
+        away[:, 3] = 0
+        # Along the displacement only, so that nothing slides.
+        direction = step[out] / distance[out]
+        rows[out] += direction * (direction * away).sum(axis=1, keepdims=True)
+        return np.ascontiguousarray(rings.outward(rows)[:, :3].T)
 
     def _unfolded(
         self,

@@ -32,7 +32,7 @@ WEAKEST = 0.25
 """Strength below which results are mixed with the input instead: nothing is learned of noise that weak."""
 
 FARTHEST = np.float32(30)
-"""Displacement in local edge lengths from which a vertex stays: the tip of a spire, and no spike of a scan."""
+"""Displacement in local edge lengths from which a vertex stays: the tip of a spire, no spike of a scan."""
 
 WIDTHS = {"AUTO": 0.0, "FINE": -1.0, "WIDE": 1.0}
 
