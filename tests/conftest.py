@@ -42,6 +42,20 @@ def rng(request):
     return np.random.default_rng(zlib.crc32(request.node.name.encode()))
 
 
+@pytest.fixture
+def exact(monkeypatch):
+    """Whole series of means over rings, and none that were cut off before or after."""
+    from framelet.core.averages import ring_means
+
+    series = (ring_means._low_pass_series, ring_means._power_series)
+    for each in series:
+        each.cache_clear()
+    monkeypatch.setattr(ring_means, "LEFT_OUT", 1e-14)
+    yield
+    for each in series:
+        each.cache_clear()
+
+
 @pytest.fixture(scope="session")
 def shared_meshes():
     """Folder of the development meshes, which are too large for the repository."""

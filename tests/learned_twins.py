@@ -13,6 +13,7 @@ AVERAGES = (2, 10, 48)
 FLOOR = 1e-4
 SHRUNK = 1e-3
 LEAST_LENGTH = 0.05
+SPREAD = 64
 
 
 def face_order(mesh):
@@ -81,9 +82,14 @@ def ring_matrix(mesh, left_out=()):
                     if len(places) == 1:
                         rim[v].add(w)
     near = [rim[v] if v in rim else around[v] for v in range(mesh.n_vertices)]
+    if left_out:
+        is_far = [not own for own in near]
+        near = [{w for w in own if not is_far[w]} for own in near]
     result = np.zeros((mesh.n_vertices, mesh.n_vertices))
     for v, own in enumerate(near):
-        own = sorted(own or {w for w in whole[v] if left_out and near[w]} or {v})
+        if left_out and is_far[v]:
+            own = {w for w in whole[v] if not is_far[w]}
+        own = sorted(own or {v})
         result[v, own] = 1 / len(own)
     return result
 
@@ -133,7 +139,7 @@ def face_pairs_of(mesh, pairs):
     ]
 
 
-def slow_features(mesh, means, scales, log_strength=0.0, width=0.0, least_island=500):
+def slow_features(mesh, means, scales, taken=None, log_strength=0.0, width=0.0, least_island=500):
     """Return the inputs of the net: of the faces of the graph, and of pairs in the order of `pairs_of`."""
     normals, centroids, areas, length = scales
     pairs = pairs_of(mesh)
@@ -149,7 +155,7 @@ def slow_features(mesh, means, scales, log_strength=0.0, width=0.0, least_island
             of_pairs[number, 2 + k] = (normals[g, k] - normals[f, k]) @ arms[k] / far[k]
         for k in range(2):
             of_pairs[number, 5 + k] = energy((normals[g, k] + normals[f, k]) @ arms[k] / unit)
-    result = np.zeros((len(faces), 38))
+    result = np.zeros((len(faces), 40))
     spread, is_flat = np.zeros((len(faces), 8)), np.zeros(len(faces), bool)
     quiet = np.log(FLOOR)
     for f, own_pairs in enumerate(face_pairs_of(mesh, pairs)):
@@ -170,8 +176,30 @@ def slow_features(mesh, means, scales, log_strength=0.0, width=0.0, least_island
     part[sizes[part] < least_island] = -1 if (sizes > 0).sum() > 1 else 0
     for number in np.unique(part):
         own = part == number
-        result[own, 21:] = quantiles(spread[own], is_flat[own], log_strength, width)
+        result[own, 21:38] = quantiles(spread[own], is_flat[own], log_strength, width)
+    if taken is not None:
+        for f, face in enumerate(faces):
+            result[f, 38] = energy(np.mean([taken[0][v] for v in face]) / length[f]) / 4 + 1
+            result[f, 39] = 2 * np.mean([taken[1][v] for v in face])
     return result, of_pairs
+
+
+def slow_offsets(mesh, after):
+    """Return what was taken away along the normals of the positions after, (N,): weighted by areas."""
+    normals = np.zeros((mesh.n_vertices, 3))
+    for face in polygons_of(mesh):
+        for v in face:
+            normals[v] += newell(after[face])
+    normals /= np.maximum(np.linalg.norm(normals, axis=1), 1e-30)[:, None]
+    return ((mesh.vertices - after) * normals).sum(axis=1)
+
+
+def slow_taken(means, offsets):
+    """Return the strength of offsets around vertices and their correlation with the ring, each (N,)."""
+    wide = averaging(means, SPREAD)
+    square = wide @ offsets**2
+    correlation = wide @ (offsets * (means @ offsets)) / np.maximum(square, 1e-20)
+    return np.sqrt(square), np.clip(correlation, -1, 1)
 
 
 def spread_around(means, faces, spread, log_strength):
@@ -181,7 +209,7 @@ def spread_around(means, faces, spread, log_strength):
         own = [f for f, face in enumerate(faces) for w in face if w == v]
         if own:
             at_vertex[v] = spread[own].mean(axis=0)
-    wide = averaging(means, 64) @ at_vertex
+    wide = averaging(means, SPREAD) @ at_vertex
     result = np.array([wide[face].mean(axis=0) for face in faces])
     for moment, mean in ((6, 0), (7, 3)):
         result[:, moment] = np.sqrt(np.maximum(result[:, moment] - result[:, mean] ** 2, 0))
@@ -289,3 +317,62 @@ def chebyshev_steps(form, gradient, preconditioner, n_steps, lowest, highest):
     left = top((middle - values) / half) / top(middle / half)
     share = np.where(values > 1e-12, (1 - left) / np.where(values > 1e-12, values, 1), 0)
     return -(vectors @ (share * (vectors.T @ (gradient / root)))) / root, values
+
+
+def slow_flat_vertices(mesh, scales):
+    """Return which vertices belong to a face that is coplanar with others, bool (N,)."""
+    normals, centroids, areas, length = scales
+    points, faces = mesh.vertices, polygons_of(mesh)
+    rounding = 4 * np.spacing(np.float32(max(1, np.abs(points).max())))
+    height = areas[:, 0] / length
+    partners = defaultdict(list)
+    for f, g, _ in pairs_of(mesh):
+        if np.linalg.norm(normals[f, 0] - normals[g, 0]) * min(height[f], height[g]) < rounding:
+            partners[f].append(g)
+            partners[g].append(f)
+    counts = []
+    for f, face in enumerate(faces):
+        away = [abs((points[v] - centroids[f, 0]) @ normals[f, 0]) for v in face[3:]]
+        counts.append(len(partners[f]) + sum(a < rounding for a in away))
+    is_common = sum(c > 0 for c in counts) > 0.1 * len(faces)
+    result = np.zeros(mesh.n_vertices, bool)
+    for f, face in enumerate(faces):
+        if counts[f] > 1 or (counts[f] == 1 and (is_common or any(counts[g] > 1 for g in partners[f]))):
+            result[face] = True
+    return result
+
+
+def slow_hardly_moved(offsets, is_clean, is_free, means):
+    """Return which vertices a pass hardly moved, bool (N,); all that move little where there is no noise."""
+    near = averaging(means, 4)
+    still = []
+    for v, row in enumerate(near):
+        around = sum(weight * min(u**2, 0.01) for weight, u in zip(row, offsets, strict=True) if weight)
+        still.append(bool(is_clean[v] and around < 0.03**2 and abs(offsets[v]) < 0.3))
+    rest = [u for u, s, free in zip(offsets, still, is_free, strict=True) if free and not s]
+    if rest:
+        noise = np.mean([u**2 for u in rest]) < 0.01**2
+        weak = np.mean([min(u**2, 0.01) for u in rest]) < 0.03**2
+        if noise or (weak and np.mean(is_clean) > 0.25):
+            still = [s or abs(u) < 0.3 for s, u in zip(still, offsets, strict=True)]
+    return np.array(still)
+
+
+def slow_start(points, fitted, is_free, means, outlier=5.0, n_averages=32, least=5e-4):
+    """Return where a second fit holds vertices: outliers at the height of those in their rings, or None.
+
+    Also by which factor the displacements miss being outliers, for tests to be sure.
+    """
+    step = fitted - points
+    distance = np.linalg.norm(step, axis=1)
+    wide = averaging(means, n_averages)
+    usual = wide @ np.minimum(distance, 2 * (wide @ distance))
+    is_out = is_free & (distance > outlier * usual)
+    result = points.copy()
+    for v in np.flatnonzero(is_out):
+        own = [w for w in np.flatnonzero(means[v]) if not is_out[w]]
+        if own:
+            direction = step[v] / distance[v]
+            result[v] += direction * (direction @ (points[own].mean(axis=0) - points[v]))
+    sure = np.abs(np.log(np.maximum(distance, 1e-30) / np.maximum(outlier * usual, 1e-30)))[is_free]
+    return (result if is_out.sum() >= least * len(points) else None), sure.min(initial=np.inf)

@@ -32,7 +32,7 @@ LOSS_FLOOR = 0.004
 AVERAGE = 0.998
 """Decay of the running mean of the weights, which is what is exported; less at the start."""
 
-TOLD = 0.3
+TOLD = 0.6
 """Share of the draws where the net is told how wide the noise is."""
 
 WARM_UP = 0.02

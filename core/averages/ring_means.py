@@ -71,6 +71,7 @@ class RingMeans(Means):
                 is_far = np.bincount(pairs[:, 0], minlength=n_vertices) == 0
                 far = surface.edges[(count > 0) & is_plain]
                 far = np.concatenate((far, far[:, ::-1]))
+                pairs = pairs[~is_far[pairs[:, 1]]]
                 pairs = np.concatenate((pairs, far[is_far[far[:, 0]] & ~is_far[far[:, 1]]]))
             alone = np.flatnonzero(np.bincount(pairs[:, 0], minlength=n_vertices) == 0)
             pairs = np.concatenate((pairs, np.stack((alone, alone), axis=1)))

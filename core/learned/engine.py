@@ -21,8 +21,9 @@ from .features import Features, find_features
 from .islands import find_islands
 from .net import Net
 from .scales import Scales, find_scales
-from .screened_fit import ScreenedFit, fan_areas
+from .screened_fit import ScreenedFit
 from .taken import Taken, find_taken
+from .unfolding import fan_areas
 
 LONG = 8.0
 """Length in mean lengths of the edges at its ends from which an edge is long."""

@@ -14,14 +14,13 @@ stiff in more directions and wins by itself.
 
 from __future__ import annotations
 
-from itertools import pairwise
-
 import numpy as np
 from numpy.typing import NDArray
 
 from ..averages.means import Means, padded
 from ..averages.ring_means import RingMeans
 from .face_graph import FaceGraph, Polygons
+from .unfolding import doubled_areas, unfolded_points
 
 NORMAL_PULL = 0.006
 TANGENT_PULL = 0.1
@@ -43,11 +42,6 @@ OUTLIER_AVERAGES = 32
 
 LEAST_OUTLIERS = 5e-4
 """Share of the vertices from which outliers matter."""
-
-LEAN = 0.5
-"""Cosine to its wanted normal below which a face is folded: 60 degrees."""
-
-UNFOLDING_ROUNDS = 12
 
 
 class ScreenedFit:
@@ -95,7 +89,7 @@ class ScreenedFit:
         start = self._without_outliers(points, fitted, is_free)
         if start is not None:
             fitted = self._solved(start, normals, weights, STEPS, is_free)
-        unfolded = self._unfolded(fitted, normals, is_free)
+        unfolded = unfolded_points(fitted, normals, self._graph, self._rings, is_free)
         return fitted if unfolded is None else self._solved(unfolded, normals, weights, STEPS // 2, is_free)
 
     def _needle_weights(self, points: NDArray[np.float32]) -> NDArray[np.float32]:
@@ -271,78 +265,6 @@ class ScreenedFit:
         direction = step[out] / distance[out]
         rows[out] += direction * (direction * away).sum(axis=1, keepdims=True)
         return np.ascontiguousarray(rings.outward(rows)[:, :3].T)
-
-    def _unfolded(
-        self,
-        points: NDArray[np.float32],
-        normals: NDArray[np.float32],
-        is_free: NDArray[np.bool_] | None,
-    ) -> NDArray[np.float32] | None:
-        """Return positions without folded faces, as far as that was reached; None if nothing is folded."""
-        graph, rings = self._graph, self._rings
-        suspects: list[NDArray[np.intp]] | None = None
-        moved: NDArray[np.float32] | None = None
-        for _ in range(UNFOLDING_ROUNDS):
-            folded = self._folded(points if moved is None else moved, normals, suspects)
-            vertices = np.unique(
-                np.concatenate(
-                    [group.corners[:, own].ravel() for group, own in zip(graph.groups, folded, strict=True)]
-                )
-            )
-            if is_free is not None:
-                vertices = vertices[is_free[vertices]]
-            if not len(vertices):
-                break
-            if moved is None:
-                moved = points.copy()
-            goal = rings.mean_at(moved, vertices)
-            moved[:, vertices] += np.float32(0.5) * (goal - moved[:, vertices])
-            is_moved = np.zeros(points.shape[1], bool)
-            is_moved[vertices] = True
-            suspects = [np.flatnonzero(is_moved[group.corners].any(axis=0)) for group in graph.groups]
-        return moved
-
-    def _folded(
-        self,
-        points: NDArray[np.float32],
-        normals: NDArray[np.float32],
-        suspects: list[NDArray[np.intp]] | None,
-    ) -> list[NDArray[np.intp]]:
-        """Return the folded faces of each group, numbered inside it, among all or some."""
-        found = []
-        for number, group in enumerate(self._graph.groups):
-            chosen = None if suspects is None else suspects[number]
-
-            def is_folded(
-                start: int, stop: int, group: Polygons = group, chosen: NDArray[np.intp] | None = chosen
-            ) -> NDArray[np.bool_]:
-                own = np.arange(start, stop) if chosen is None else chosen[start:stop]
-                area = fan_areas([points.take(corner[own], axis=1) for corner in group.corners])
-                along = (area * normals[:, group.begin + own]).sum(axis=0)
-                return along < np.float32(LEAN) * np.sqrt((area * area).sum(axis=0))
-
-            n_items = group.end - group.begin if chosen is None else len(chosen)
-            places = self._graph.blocks.indices(is_folded, n_items)
-            found.append(places if chosen is None else chosen[places])
-        return found
-
-
-def fan_areas(corners: list[NDArray[np.float32]]) -> NDArray[np.float32]:
-    """Return twice the area vectors of faces, shape (3, n), from their corners, each of shape (3, n)."""
-    arms = [corner - corners[0] for corner in corners[1:]]
-    total = np.zeros_like(corners[0])
-    for (a, b, c), (x, y, z) in pairwise(arms):
-        total[0] += b * z - c * y
-        total[1] += c * x - a * z
-        total[2] += a * y - b * x
-    return total
-
-
-def doubled_areas(corners: list[NDArray[np.float32]]) -> NDArray[np.float32]:
-    """Return twice the areas of faces, shape (n,)."""
-    area = fan_areas(corners)
-    area *= area
-    return np.sqrt(area.sum(axis=0))
 
 
 ENTRIES = ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))

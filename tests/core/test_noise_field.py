@@ -11,7 +11,7 @@ from framelet.core.averages.ring_means import RingMeans
 from framelet.core.noise import field as field_module
 from framelet.core.surface.geometry import vertex_normals
 from kinds import ALONE, KIND, KINDS
-from learned_twins import averaging, ring_matrix
+from learned_twins import SPREAD, averaging, ring_matrix
 from meshes import noisy, quad_torus, triangle_torus
 
 SHAPES = {"triangles": lambda: triangle_torus(40, 80), "quads": lambda: quad_torus(40, 80)}
@@ -90,7 +90,7 @@ def test_strength_and_width_are_those_of_a_loop(rng):
     heights = 0.1 * rng.normal(size=clean.n_vertices)
     field = noise_field(lifted(clean, heights), clean.vertices)
     offset = (vertex_normals(clean) * (lifted(clean, heights).vertices - clean.vertices)).sum(axis=1)
-    wide = averaging(ring_matrix(clean), field_module.SPREAD_AVERAGES)
+    wide = averaging(ring_matrix(clean), SPREAD)
     square, product = wide @ offset**2, wide @ (offset * (ring_matrix(clean) @ offset))
     ratio = np.clip(product / square, 0, 0.999)
     width = [0.5 / np.sqrt(-np.log(r)) if r > 0.02 else 0.0 for r in ratio]

@@ -4,26 +4,32 @@
 
 import numpy as np
 import pytest
-from checks import lengths, random_rotation
+from checks import assert_same_bits, lengths, random_rotation
 from framelet.core import SurfaceMesh, connect
-from framelet.core.averages import ring_means
 from framelet.core.learned import features as features_module
 from framelet.core.learned import scales as scales_module
+from framelet.core.learned import taken as taken_module
 from framelet.core.learned.engine import LONG, FaceEngine, long_edges
+from framelet.core.learned.net import load_net
 from kinds import ALONE, KINDS
 from learned_twins import (
     AVERAGES,
     FLOOR,
     LEAST_LENGTH,
     SHRUNK,
+    SPREAD,
     face_order,
     pairs_of,
+    ring_matrix,
     slow_features,
+    slow_offsets,
     slow_scales,
+    slow_taken,
 )
-from meshes import MESHES, noisy, quad_torus, triangle_grid, triangle_torus, union
+from meshes import MESHES, noisy, octahedron, quad_torus, tetrahedron, triangle_grid, triangle_torus, union
 from stars import relabeled
 
+pytestmark = pytest.mark.usefixtures("exact")
 SINGLE = 2e-4
 """Error of logarithms and heights in single precision."""
 
@@ -39,18 +45,6 @@ def bumped(mesh):
     points = mesh.vertices.copy()
     points[:, 2] = np.where(points[:, 0] > 4, 0.2 * np.sin(7 * points[:, 0] + 3 * points[:, 1]), 0)
     return mesh.with_vertices(points)
-
-
-@pytest.fixture(autouse=True)
-def exact(monkeypatch):
-    """Whole series, and none that were cut off before or after."""
-    series = (ring_means._low_pass_series, ring_means._power_series)
-    for each in series:
-        each.cache_clear()
-    monkeypatch.setattr(ring_means, "LEFT_OUT", 1e-14)
-    yield
-    for each in series:
-        each.cache_clear()
 
 
 def engine_of(mesh):
@@ -84,6 +78,8 @@ def test_the_constants_of_the_twins():
     assert (AVERAGES, np.float32(FLOOR)) == (scales_module.AVERAGES, features_module.FLOOR)
     assert np.float32(SHRUNK) == scales_module.SHRUNK
     assert np.float32(LEAST_LENGTH) == scales_module.LEAST_LENGTH
+    assert SPREAD == features_module.SPREAD_AVERAGES == taken_module.SPREAD_AVERAGES
+    assert features_module.N_FACE == 40
 
 
 @pytest.mark.parametrize("kind", ["irregular torus", "quad torus", "mixed sheet", "three pages", "border"])
@@ -104,9 +100,26 @@ def test_long_edges(kind, rng):
     assert expected.any() and not expected.all()
 
 
-@pytest.mark.parametrize("kind", KINDS)
+SCALED = {
+    **KINDS,
+    "vertices on top of each other": lambda: coincident(quad_torus()),
+    "small islands": lambda: union(tetrahedron(), triangle_torus(), octahedron()),
+}
+
+
+def coincident(mesh):
+    """Return a mesh with all vertices in the rings around one vertex in one place, and edges of no length."""
+    points = mesh.vertices.copy()
+    near = lengths(points - points[0]) < 3.5
+    assert 8 < near.sum() < mesh.n_vertices - 8
+    points[near] = points[0]
+    return mesh.with_vertices(points)
+
+
+@pytest.mark.parametrize("kind", SCALED)
 def test_scales(kind, rng):
-    mesh = noisy(KINDS[kind](), rng)
+    """Also of islands that averages shrink to nothing, where normals and lengths have a floor."""
+    mesh = SCALED[kind]() if "top" in kind else noisy(SCALED[kind](), rng)
     engine = engine_of(mesh)
     scales = scales_module.find_scales(points_of(mesh), engine.graph, engine.rings)
     normals, centroids, areas, length = slow_scales(mesh, matrix_of(engine.rings))
@@ -119,15 +132,122 @@ def test_scales(kind, rng):
     assert (np.linalg.norm(scales.normals, axis=0) < 1 + 1e-5).all()
 
 
+def test_shrunk_faces_keep_the_normals_of_the_scale_before(rng):
+    mesh = noisy(tetrahedron(), rng)
+    engine = engine_of(mesh)
+    scales = scales_module.find_scales(points_of(mesh), engine.graph, engine.rings)
+    areas, normals = scales.areas, scales.normals
+    assert (areas[:, 1] > SHRUNK * areas[:, 0]).all() and (areas[:, 2:] < SHRUNK * areas[:, :1]).all()
+    assert_same_bits(normals[..., 2], normals[..., 1])
+    assert_same_bits(normals[..., 3], normals[..., 1])
+    assert np.abs(np.linalg.norm(normals, axis=0) - 1).max() < 1e-5
+
+
+def test_lengths_are_those_of_edges_but_for_noise(rng):
+    """Also on small islands, and on a mesh whose vertices are all in one place."""
+    for mesh in (triangle_torus(40, 80), tetrahedron(), octahedron()):
+        edge = lengths(mesh.vertices[mesh.edges[:, 0]] - mesh.vertices[mesh.edges[:, 1]]).mean()
+        engine = engine_of(mesh)
+        unit = scales_module.find_scales(points_of(mesh), engine.graph, engine.rings).unit / edge
+        assert unit.min() > 0.9 * LEAST_LENGTH and unit.max() < 2
+        none = scales_module.find_scales(0 * points_of(mesh), engine.graph, engine.rings)
+        assert (none.unit == 1).all() and not none.areas.any()
+
+
+def test_other_positions_have_an_engine_of_their_own_if_other_edges_are_long(rng):
+    mesh = noisy(triangle_torus(10, 14), rng)
+    connectivity, near = connect(mesh), engine_of(mesh)
+    assert near.placed(noisy(mesh, rng), connectivity) is near
+    points = mesh.vertices.copy()
+    points[17] += 1000
+    far = mesh.with_vertices(points)
+    found, expected = near.placed(far, connectivity), engine_of(far)
+    assert found is not near and found.graph is near.graph and found.at_vertex is near.at_vertex
+    assert np.array_equal(matrix_of(found.rings), matrix_of(expected.rings))
+    means = matrix_of(near.rings)
+    assert not matrix_of(found.rings)[:, 17].any() and means[:, 17].any()
+    for each in (found, expected):
+        each.made = each.describe(points_of(far))
+        each.made += (each.normals(load_net(), *each.made),)
+        each.fitted = each.fit.fit(points_of(far), each.made[2])
+    assert_same_bits(found.made[1].faces, expected.made[1].faces)
+    assert_same_bits(found.fitted, expected.fitted)
+    again = found.placed(mesh, connectivity)
+    assert again is not found and np.array_equal(matrix_of(again.rings), means)
+    assert found.placed(far, connectivity) is found and near.placed(mesh, connectivity) is near
+
+
+def test_a_far_vertex_takes_the_mean_of_its_neighbors_and_counts_for_none(rng):
+    """Its edges are long for its neighbors, and all it has."""
+    mesh = noisy(triangle_torus(10, 14), rng)
+    points = mesh.vertices.copy()
+    points[17] += 1000
+    mesh = mesh.with_vertices(points)
+    engine = engine_of(mesh)
+    expected = ring_matrix(mesh, mesh.edges[(mesh.edges == 17).any(axis=1)].tolist())
+    found = matrix_of(engine.rings)
+    assert np.abs(found - expected).max() < 1e-12
+    neighbors = {v for edge in mesh.edges.tolist() if 17 in edge for v in edge} - {17}
+    assert set(np.flatnonzero(found[17])) == neighbors and not found[:, 17].any()
+
+
 @pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize(("log_strength", "width"), [(0.0, 0.0), (0.7, 1.0)])
-def test_features(kind, log_strength, width, rng, monkeypatch):
+def test_what_was_taken_away(kind, rng):
+    """Along the normals of the result, squared and multiplied with the mean of the ring, then spread."""
+    before = noisy(KINDS[kind](), rng)
+    after, engine = noisy(before, rng, 0.05), engine_of(before)
+    offsets = slow_offsets(before, after.vertices)
+    found = engine.offsets(points_of(before), points_of(after))
+    assert np.abs(found - offsets).max() < 1e-5
+    strength, correlation = slow_taken(matrix_of(engine.rings), offsets)
+    for taken in (
+        engine.taken(points_of(before), points_of(after)),
+        taken_module.find_taken(offsets.astype(np.float32), engine.rings),
+    ):
+        assert taken.strength.dtype == taken.correlation.dtype == np.float32
+        assert np.abs(taken.strength - strength).max() < 1e-4
+        assert np.abs(taken.correlation - correlation)[strength > 1e-3].max(initial=0) < 1e-3
+        assert (np.abs(taken.correlation) <= 1).all()
+
+
+def test_nothing_taken_away_is_not_correlated(rng):
+    mesh = noisy(KINDS["mixed sheet"](), rng)
+    taken = engine_of(mesh).taken(points_of(mesh), points_of(mesh))
+    assert not taken.strength.any() and not taken.correlation.any()
+
+
+def test_the_pass_before_is_seen_in_two_columns_only(rng):
+    mesh = noisy(KINDS["mixed sheet"](), rng)
+    engine = engine_of(mesh)
+    taken = engine.taken(points_of(noisy(mesh, rng)), points_of(mesh))
+    _, first = engine.describe(points_of(mesh))
+    _, second = engine.describe(points_of(mesh), taken)
+    assert features_module.N_TAKEN == 2 and not first.faces[:, 38:].any()
+    assert_same_bits(second.faces[:, :38].copy(), first.faces[:, :38].copy())
+    assert_same_bits(second.pairs, first.pairs)
+    assert np.abs(second.faces[:, 38:]).min(axis=0).min() > 0
+    # What a usual noise leaves is near 0, as in a first pass; none at all is far from it.
+    usual = taken_module.Taken(np.full(mesh.n_vertices, 0.13, np.float32), 0 * taken.correlation)
+    scales, found = engine.describe(points_of(mesh), usual)
+    assert np.abs(found.faces[:, 38]).max() < 0.5 and not found.faces[:, 39].any()
+    _, nothing = engine.describe(points_of(mesh), usual._replace(strength=0 * usual.strength))
+    assert (nothing.faces[:, 38] < -1.25).all()
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize(
+    ("log_strength", "width", "is_first"), [(0.0, 0.0, True), (0.7, 1.0, True), (-0.5, -1.0, False)]
+)
+def test_features(kind, log_strength, width, is_first, rng, monkeypatch):
     monkeypatch.setattr(features_module, "LEAST_ISLAND", 4)
     mesh = KINDS[kind]()
     if kind not in ("a flat part", "half a sheet"):
         mesh = noisy(mesh, rng)
     engine = engine_of(mesh)
-    scales, found = engine.describe(points_of(mesh), log_strength, width)
+    taken = None
+    if not is_first:
+        taken = engine.taken(points_of(noisy(mesh, rng)), points_of(mesh))
+    scales, found = engine.describe(points_of(mesh), taken, log_strength, width)
     # The twin takes the same scales, so that what rounding does to thin faces does not count.
     same = (
         scales.normals.transpose(1, 2, 0),
@@ -136,7 +256,7 @@ def test_features(kind, log_strength, width, rng, monkeypatch):
         scales.length,
     )
     same = [x.astype(float) for x in same]
-    faces, pairs = slow_features(mesh, matrix_of(engine.rings), same, log_strength, width, 4)
+    faces, pairs = slow_features(mesh, matrix_of(engine.rings), same, taken, log_strength, width, 4)
     assert found.faces.shape == faces.shape and found.faces.dtype == np.float32
     columns = np.abs(found.faces - faces).max(axis=0)
     # Deviations come out of differences of large squares.
@@ -150,14 +270,20 @@ def test_features(kind, log_strength, width, rng, monkeypatch):
 
 @pytest.mark.parametrize("kind", ["irregular torus", "quad torus", "mixed sheet", "border"])
 def test_features_do_not_depend_on_pose_and_numbers(kind, rng):
-    mesh = noisy(KINDS[kind](), rng)
-    _, plain = engine_of(mesh).describe(points_of(mesh))
-    turned = mesh.with_vertices(mesh.vertices @ random_rotation(rng))
-    _, found = engine_of(turned).describe(points_of(turned))
+    mesh, turn = noisy(KINDS[kind](), rng), random_rotation(rng)
+    before = noisy(mesh, rng)
+
+    def described(mesh, before):
+        engine = engine_of(mesh)
+        return engine.describe(points_of(mesh), engine.taken(points_of(before), points_of(mesh)))
+
+    _, plain = described(mesh, before)
+    turned = mesh.with_vertices(mesh.vertices @ turn)
+    _, found = described(turned, before.with_vertices(before.vertices @ turn))
     assert np.abs(found.faces - plain.faces).max() < 0.02
     assert np.abs(found.pairs - plain.pairs).max() < 0.02
-    other, _ = relabeled(mesh, rng)
-    _, found = engine_of(other).describe(points_of(other))
+    other, old = relabeled(mesh, rng)
+    _, found = described(other, other.with_vertices(before.vertices[old]))
     assert np.abs(np.sort(found.faces, axis=0) - np.sort(plain.faces, axis=0)).max() < 0.02
     assert np.abs(np.sort(found.pairs, axis=0) - np.sort(plain.pairs, axis=0)).max() < 0.02
 

@@ -8,9 +8,9 @@ from checks import assert_same_bits
 from framelet.core import connect
 from framelet.core.blocks import Blocks
 from framelet.core.learned import screened_fit
-from framelet.core.learned.engine import FaceEngine
+from framelet.core.learned.engine import FaceEngine, long_edges
 from kinds import ALONE, KIND, KINDS
-from learned_twins import chebyshev_steps, face_order, fit_problem
+from learned_twins import chebyshev_steps, face_order, fit_problem, ring_matrix, slow_start
 from meshes import MESHES, faces_of, noisy, quad_torus, triangle_grid, triangle_torus
 from twins import newell
 
@@ -55,9 +55,10 @@ def wanted(mesh, rng, amount=0.4):
     return np.ascontiguousarray((normals / np.linalg.norm(normals, axis=1)[:, None]).T, np.float32)
 
 
-def expected_fit(mesh, normals, n_steps, held=()):
+def expected_fit(mesh, normals, n_steps, held=(), weights=None):
     """Return what the steps give, the energies before, after and at the minimum, and all eigenvalues."""
-    form, gradient, valence = fit_problem(mesh, normals.T.astype(float), needle_weights(mesh))
+    weights = needle_weights(mesh) if weights is None else weights
+    form, gradient, valence = fit_problem(mesh, normals.T.astype(float), weights)
     free = np.repeat(~np.isin(np.arange(mesh.n_vertices), held) & (valence > 0), 3)
     form, gradient = form[np.ix_(free, free)], gradient[free]
     scale = np.repeat(2 * valence, 3)[free]
@@ -71,8 +72,9 @@ def expected_fit(mesh, normals, n_steps, held=()):
 
 @pytest.fixture
 def as_solved(monkeypatch):
-    """The linear problem alone."""
+    """The linear problem alone, without outliers."""
     monkeypatch.setattr(screened_fit, "UNFOLDING_ROUNDS", 0)
+    monkeypatch.setattr(screened_fit, "LEAST_OUTLIERS", 2)
 
 
 @FIT
@@ -94,6 +96,61 @@ def test_the_fit_is_a_polynomial_in_the_dense_problem(name, is_held, rng):
     assert best <= after <= before + 1e-12
     if is_free.any() and mesh.n_faces > 1:
         assert after - best < 0.05 * (before - best)
+
+
+@pytest.mark.parametrize("is_held", [False, True])
+@pytest.mark.parametrize("name", ["torus", "quads", "sheet"])
+@pytest.mark.usefixtures("exact")
+def test_outliers_are_held_at_the_height_of_their_rings(name, is_held, rng, monkeypatch):
+    """Two fits, the second from where outliers are as high as those around that are none."""
+    monkeypatch.setattr(screened_fit, "UNFOLDING_ROUNDS", 0)
+    clean = {"torus": triangle_torus, "quads": quad_torus, "sheet": triangle_grid}[name](14, 16)
+    mesh = spiked(noisy(clean, rng, 0.02), rng)
+    normals, points = np.ascontiguousarray(normals_of(clean).T, np.float32), points_of(mesh)
+    is_free = rng.random(mesh.n_vertices) < 0.7 if is_held else np.ones(mesh.n_vertices, bool)
+    held, weights = np.flatnonzero(~is_free), needle_weights(mesh)
+    first = expected_fit(mesh, normals, screened_fit.STEPS, held)[0]
+    far = mesh.edges[long_edges(mesh, connect(mesh))].tolist()
+    start, sure = slow_start(mesh.vertices, first, is_free, ring_matrix(mesh, far))
+    assert sure > 1e-3 and 3 <= (start != mesh.vertices).any(axis=1).sum() < 20
+    given = points.copy()
+    found = fit_of(mesh).fit(points, normals, is_free)
+    second = expected_fit(mesh.with_vertices(start), normals, screened_fit.STEPS, held, weights)[0]
+    assert np.abs(found.T - second).max() < 5 * SINGLE
+    assert np.abs(first - second).max() > 0.1
+    assert_same_bits(found[:, held], points[:, held])
+    assert_same_bits(points, given)
+
+
+def spiked(mesh, rng, n_spikes=6, height=2.0):
+    """Return a mesh with a few of its vertices far off."""
+    points = mesh.vertices.copy()
+    chosen = rng.permutation(mesh.n_vertices)[:n_spikes]
+    points[chosen] += height * np.linalg.norm(points[mesh.edges[0, 0]] - points[mesh.edges[0, 1]]) * (
+        rng.normal(size=(n_spikes, 3)) + [0, 0, 3]
+    )
+    return mesh.with_vertices(points)
+
+
+def test_spikes_do_not_lift_what_is_around():
+    """With the right normals a spike comes down, and what is around it stays as low as it is."""
+    clean = triangle_grid(31, 31)
+    points = clean.vertices.copy()
+    points[480, 2] = 4.0
+    normals = np.ascontiguousarray(normals_of(clean).T, np.float32)
+    found = fit_of(clean).fit(points_of(clean.with_vertices(points)), normals)
+    assert np.abs(found[2]).max() < 0.02 * 4.0
+    assert np.abs(np.delete(found[2], 480)).max() < 0.02
+
+
+def test_gaussian_noise_has_no_outliers(rng):
+    """Nothing is held elsewhere, so that the fit of white noise is the linear problem alone."""
+    clean = triangle_torus(30, 60)
+    mesh = noisy(clean, rng, 0.1)
+    normals = np.ascontiguousarray(normals_of(clean).T, np.float32)
+    fit = fit_of(mesh)
+    solved = fit._solved(points_of(mesh), normals, fit._needle_weights(points_of(mesh)), screened_fit.STEPS, None)
+    assert fit._without_outliers(points_of(mesh), solved, None) is None
 
 
 def test_needles_count_less(rng):

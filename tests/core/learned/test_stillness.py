@@ -6,13 +6,117 @@ import numpy as np
 import pytest
 import region_cases
 from checks import random_rotation
-from framelet.core import denoise
-from meshes import flipped, noisy, prism, quad_grid, triangle_grid, triangle_torus, union
+from framelet.core import connect, denoise
+from framelet.core.learned import stillness
+from framelet.core.learned.engine import FaceEngine
+from framelet.core.learned.scales import find_scales
+from kinds import ALONE
+from learned_twins import slow_flat_vertices, slow_hardly_moved, slow_scales
+from meshes import (
+    MESHES,
+    faces_of,
+    flipped,
+    noisy,
+    prism,
+    quad_grid,
+    triangle_grid,
+    triangle_torus,
+    union,
+)
 
 
 def still_of(mesh):
     """Return which vertices of a mesh keep all bits."""
     return (denoise(mesh).vertices == mesh.vertices).all(axis=1)
+
+
+def described(mesh):
+    engine = FaceEngine(mesh, connect(mesh), ALONE)
+    points = np.ascontiguousarray(mesh.vertices.T, np.float32)
+    return engine, points, find_scales(points, engine.graph, engine.rings)
+
+
+def bumpy_in_places(mesh, share, rng):
+    """Return a flat mesh with some of its vertices lifted, also two alike; on binary fractions."""
+    points = np.round(mesh.vertices * 64) / 64
+    is_lifted = rng.random(mesh.n_vertices) < share
+    points[:, 2] += np.where(is_lifted, rng.integers(1, 40, mesh.n_vertices) / 64, 0)
+    return mesh.with_vertices(points)
+
+
+@pytest.mark.parametrize("share", [0.0, 0.05, 0.3, 0.5, 0.7, 0.9, 1.0])
+@pytest.mark.parametrize("name", ["triangle grid", "quad grid", "mixed sheet", "two sheets"])
+def test_flat_vertices(name, share, rng):
+    """Against a loop over pairs: alone, in pairs, in rows, and where many faces have one coplanar neighbor."""
+    sheets = {"two sheets": lambda: union(triangle_grid(), quad_grid())}
+    mesh = bumpy_in_places((MESHES | sheets)[name](), share, rng)
+    engine, points, scales = described(mesh)
+    means = engine.rings.outward(engine.rings.mean(engine.rings.inward(np.eye(mesh.n_vertices))))
+    found = stillness.flat_vertices(points, scales, engine.graph)
+    assert found.tolist() == slow_flat_vertices(mesh, slow_scales(mesh, means)).tolist()
+    assert share > 0 or found.mean() > 0.7
+
+
+def test_one_coplanar_pair_is_a_coincidence_and_three_faces_are_none(rng):
+    """Unless there are many of them."""
+    clean = triangle_grid(16, 16)
+    heights = rng.integers(1, 4000, clean.n_vertices) / 1024
+    faces = np.array(faces_of(clean))
+
+    def flat_with(vertices):
+        points = clean.vertices.copy()
+        points[:, 2] = heights
+        points[vertices, 2] = 0
+        engine, points, scales = described(clean.with_vertices(points))
+        return set(np.flatnonzero(stillness.flat_vertices(points, scales, engine.graph)).tolist())
+
+    one, two = next((a, b) for a in faces for b in faces if len(set(a) & set(b)) == 2 and 100 in a)
+    pair = set(one) | set(two)
+    assert flat_with(sorted(pair)) == set()
+    third = next(set(f) for f in faces if len(set(f) & set(one)) == 2 and not set(f) <= pair)
+    assert flat_with(sorted(pair | third)) >= pair | third
+    assert flat_with(range(clean.n_vertices)) == set(range(clean.n_vertices))
+
+
+@pytest.mark.parametrize("strength", [0.003, 0.012, 0.02, 0.05, 0.2])
+@pytest.mark.parametrize("share", [0.0, 0.15, 0.6, 1.0])
+@pytest.mark.usefixtures("exact")
+def test_what_a_pass_hardly_moved(share, strength, rng):
+    """Against a loop: what is calm in clean places; without noise all but what sticks out."""
+    mesh = triangle_torus(14, 20)
+    engine = described(mesh)[0]
+    is_clean = mesh.vertices[:, 0] < np.quantile(mesh.vertices[:, 0], share)
+    is_free = rng.random(mesh.n_vertices) < 0.9
+    offsets = strength * rng.normal(size=mesh.n_vertices) * rng.choice([0.2, 1], mesh.n_vertices)
+    offsets[rng.permutation(mesh.n_vertices)[:3]] = 0.5
+    offsets = offsets.astype(np.float32)
+    means = engine.rings.outward(engine.rings.mean(engine.rings.inward(np.eye(mesh.n_vertices))))
+    found = stillness.hardly_moved(offsets, is_clean, is_free, engine.rings)
+    assert found.tolist() == slow_hardly_moved(offsets.astype(float), is_clean, is_free, means).tolist()
+    assert not found[offsets == 0.5].any()
+    assert found[is_clean].mean() > 0.5 or strength > 0.02 or share == 0
+    assert strength < 0.2 or not found.any()
+
+
+def test_nothing_that_was_still_moves_where_nothing_is_free():
+    engine = described(triangle_torus())[0]
+    nothing = np.zeros(192, np.float32)
+    for is_clean in (np.zeros(192, bool), np.ones(192, bool)):
+        found = stillness.hardly_moved(nothing, is_clean, ~is_clean & is_clean, engine.rings)
+        assert found.tolist() == is_clean.tolist()
+
+
+@pytest.mark.parametrize("sigma", [0.0, 0.02, 0.1])
+def test_places_are_clean_where_polynomials_fit(sigma, rng):
+    """Everywhere, on one half, and nowhere; the same whether all two-rings are looked at or some."""
+    clean = triangle_torus(60, 120)
+    is_noisy = clean.vertices[:, 0] > 0
+    for part in (is_noisy, np.ones_like(is_noisy)):
+        mesh = clean.with_vertices(np.where(part[:, None], noisy(clean, rng, sigma).vertices, clean.vertices))
+        engine, points, scales = described(mesh)
+        found = stillness.clean_places(points, mesh, connect(mesh), scales.unit, engine.rings, ALONE)
+        far = np.abs(clean.vertices[:, 0]) > 0.8
+        assert found.all() if sigma == 0 else not found[part & far].any() and found[~part & far].all()
 
 
 def half_rough(build=triangle_grid):
