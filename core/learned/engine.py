@@ -18,12 +18,19 @@ from ..surface.connectivity import Connectivity
 from ..surface.surface_mesh import SurfaceMesh
 from .face_graph import FaceGraph
 from .features import Features, find_features
-from .islands import find_islands
+from .islands import faces_of_islands, find_islands
 from .net import Net
 from .scales import Scales, find_scales
 from .screened_fit import ScreenedFit
 from .taken import Taken, find_taken
 from .unfolding import fan_areas
+
+WIDE_FROM = 0.05
+"""Correlation with the ring of what a pass took away from which the noise is wide. Of white noise it is 0 or
+less, as a pass takes from each vertex a little of what its neighbors had."""
+
+WEAK = 0.03
+"""Strength in local edge lengths up to which nothing is said of the width: that may be relief."""
 
 LONG = 8.0
 """Length in mean lengths of the edges at its ends from which an edge is long."""
@@ -90,7 +97,7 @@ class FaceEngine:
         points: NDArray[np.float32],
         taken: Taken | None = None,
         log_strength: float = 0.0,
-        width: float = 0.0,
+        width: float | NDArray[np.float32] = 0.0,
     ) -> tuple[Scales, Features]:
         """Return scales and features of positions, shape (3, N), float32; see `find_features`."""
         scales = find_scales(points, self.graph, self.rings)
@@ -101,6 +108,20 @@ class FaceEngine:
     def taken(self, before: NDArray[np.float32], after: NDArray[np.float32]) -> Taken:
         """Return what was taken away between two positions, shape (3, N)."""
         return find_taken(self.offsets(before, after), self.rings)
+
+    def wide_parts(self, taken: Taken, unit: NDArray[np.float32]) -> NDArray[np.float32]:
+        """Return 1 for the faces of islands whose noise is wide, else 0, shape (F,).
+
+        `unit`, shape (N,), are local edge lengths.
+        """
+        corners = np.concatenate([group.corners[0] for group in self.graph.groups])
+        correlation, strength = taken.correlation[corners], (taken.strength / unit)[corners]
+        parts = [slice(None)] if self.island is None else faces_of_islands(self.island)
+        result = np.zeros(len(corners), np.float32)
+        for part in parts:
+            is_wide = np.median(correlation[part]) > WIDE_FROM and np.median(strength[part]) > WEAK
+            result[part] = is_wide
+        return result
 
     def normals(
         self, net: Net, scales: Scales, features: Features, tick: Callable[[], None] = lambda: None

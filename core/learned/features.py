@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from ..averages.means import Means
 from ..averages.ring_means import RingMeans
 from .face_graph import FaceGraph, Polygons
+from .islands import faces_of_islands
 from .scales import N_SCALES, Scales
 from .taken import Taken
 
@@ -26,9 +27,6 @@ SPREAD_AVERAGES = 64
 
 N_SAMPLES = 4096
 """Faces of an island from which its quantiles are taken."""
-
-LEAST_ISLAND = 500
-"""Islands with fewer faces have their quantiles together."""
 
 PAIRS_OF_SCALES = ((0, 1), (1, 2), (2, 3), (0, 2), (1, 3), (0, 3))
 
@@ -70,7 +68,7 @@ def find_features(
     island: NDArray[np.int32] | None,
     taken: Taken | None = None,
     log_strength: float = 0.0,
-    width: float = 0.0,
+    width: float | NDArray[np.float32] = 0.0,
 ) -> Features:
     """Describe a surface for the net.
 
@@ -90,7 +88,7 @@ def find_features(
         What the pass before took away.
     log_strength : float
         Logarithm of Strength: added to the logarithms of fine jumps, and half of it to those of heights.
-    width : float
+    width : float or ndarray, shape (F,)
         What is expected of the noise: 1 wide, -1 fine, 0 nothing.
     """
     n_bands = N_SCALES - 1
@@ -176,7 +174,8 @@ def find_features(
 
     graph.for_faces(inside)
     column = 2 * n_bands + len(PAIRS_OF_SCALES) + 1
-    faces[:, column + N_SPREAD : -N_TAKEN] = _quantiles(spread, is_flat, island, log_strength, width)
+    faces[:, column + N_SPREAD : -N_TAKEN - 1] = _quantiles(spread, is_flat, island, log_strength)
+    faces[:, -N_TAKEN - 1] = width
     faces[:, -N_TAKEN:] = 0
     at_faces = rings.inward(at_vertex.outward(at_vertex.mean(spread)))
     at_faces = rings.outward(rings.averaged(at_faces, SPREAD_AVERAGES))
@@ -208,25 +207,20 @@ def _quantiles(
     is_flat: NDArray[np.bool_],
     island: NDArray[np.int32] | None,
     log_strength: float,
-    width: float,
 ) -> NDArray[np.float32]:
-    """Return quantiles over the island of each face, shape (F or 1, N_GLOBAL), without exactly flat faces."""
+    """Return quantiles over the island of each face, (F or 1, N_GLOBAL - 1); flat faces do not count."""
     if island is None:
-        return _quantiles_of(energies, is_flat, log_strength, width)[None]
-    sizes = np.bincount(island)
-    number = np.where(sizes >= LEAST_ISLAND, np.arange(len(sizes)), -1)[island]
-    result = np.empty((len(island), N_GLOBAL), np.float32)
-    by_island = np.argsort(number, kind="stable")
-    for part in np.split(by_island, np.flatnonzero(np.diff(number[by_island])) + 1):
-        if len(part):
-            result[part] = _quantiles_of(energies[part], is_flat[part], log_strength, width)
+        return _quantiles_of(energies, is_flat, log_strength)[None]
+    result = np.empty((len(island), N_GLOBAL - 1), np.float32)
+    for part in faces_of_islands(island):
+        result[part] = _quantiles_of(energies[part], is_flat[part], log_strength)
     return result
 
 
 def _quantiles_of(
-    energies: NDArray[np.float32], is_flat: NDArray[np.bool_], log_strength: float, width: float
+    energies: NDArray[np.float32], is_flat: NDArray[np.bool_], log_strength: float
 ) -> NDArray[np.float32]:
-    """Return quantiles of energies of faces, shape (F, 8), as N_GLOBAL numbers."""
+    """Return quantiles of energies of faces, shape (F, 8), as N_GLOBAL - 1 numbers."""
     n_bands = N_SCALES - 1
     counted = np.flatnonzero(~is_flat)
     share = len(counted) / max(len(is_flat), 1)
@@ -240,5 +234,5 @@ def _quantiles_of(
     heights = ordered[[round(q * last) for q in (0.5, 0.9)], n_bands:]
     jumps[:, :2] += np.float32(2 * log_strength)
     heights += np.float32(log_strength)
-    values = [*jumps.T.ravel(), *heights.T.ravel(), np.log(share + 0.01), width]
+    values = [*jumps.T.ravel(), *heights.T.ravel(), np.log(share + 0.01)]
     return np.array(values, np.float32)

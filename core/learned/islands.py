@@ -9,6 +9,9 @@ from numpy.typing import NDArray
 
 from .face_graph import FaceGraph
 
+LEAST_ISLAND = 500
+"""Islands with fewer faces are taken together: alone they say too little."""
+
 
 def find_islands(graph: FaceGraph) -> NDArray[np.int32] | None:
     """Return the number of the connected part of each face, shape (F,), int32; None if there is only one.
@@ -33,3 +36,15 @@ def find_islands(graph: FaceGraph) -> NDArray[np.int32] | None:
             label = above
     roots, island = np.unique(label, return_inverse=True)
     return island.reshape(-1).astype(np.int32) if len(roots) > 1 else None
+
+
+def faces_of_islands(island: NDArray[np.int32]) -> list[NDArray[np.intp]]:
+    """Return the faces of each island that is large enough, and those of all others together.
+
+    `island`, shape (F,), is the number of the island of each face.
+    """
+    sizes = np.bincount(island)
+    number = np.where(sizes >= LEAST_ISLAND, np.arange(len(sizes)), -1)[island]
+    by_island = np.argsort(number, kind="stable")
+    parts = np.split(by_island, np.flatnonzero(np.diff(number[by_island])) + 1)
+    return [part for part in parts if len(part)]

@@ -21,7 +21,9 @@ from ..blocks import Blocks
 from ..denoising.constraints import Constraints
 from ..denoising.report import Callback
 from ..learned.engine import FaceEngine
+from ..learned.features import Features
 from ..learned.net import REPEATS, load_net
+from ..learned.scales import Scales
 from ..learned.stillness import clean_places, flat_vertices, hardly_moved
 from ..noise.field import NoiseBelief, find_belief
 from ..settings import DenoiseSettings
@@ -30,6 +32,9 @@ from ..surface.surface_mesh import SurfaceMesh
 
 WEAKEST = 0.25
 """Strength below which results are mixed with the input instead: nothing is learned of noise that weak."""
+
+TICKS = len(REPEATS) + 2
+"""Steps of a pass that are told: features, layers, fit."""
 
 FARTHEST = np.float32(30)
 """Displacement in local edge lengths from which a vertex stays: the tip of a spire, no spike of a scan."""
@@ -90,53 +95,105 @@ def learned_shrinkage(
         If the run was stopped in the first pass, the noisy positions.
     """
     points = np.ascontiguousarray(noisy, np.float32)
-    total, done = settings.passes * (len(REPEATS) + 3), 0
-
-    def tick() -> None:
-        nonlocal done
-        done += 1
-        if callback is not None and callback(min(done / total, 1.0), 0.0):
-            raise _Stopped
-
-    net = load_net()
+    run = _Run(points, surface, connectivity, engine, constraints, blocks, callback)
+    run.n_ticks = TICKS * (settings.passes + (settings.noise == "AUTO"))
     amount = min(settings.strength / WEAKEST, 1.0)
     log_strength = math.log(max(settings.strength, WEAKEST))
-    width = WIDTHS[settings.noise]
+    width: float | NDArray[np.float32] = WIDTHS[settings.noise]
     fitted, n_passes, is_stopped = points, 0, False
-    is_movable = np.ones(points.shape[1], bool)
-    is_movable[constraints.pinned] = False
-    is_free = is_movable.copy()
-    unit = np.ones(points.shape[1], np.float32)
     try:
-        while n_passes < settings.passes and amount > 0.0 and is_free.any() and engine.graph.n_faces:
-            taken = engine.taken(points, fitted) if n_passes else None
-            scales, features = engine.describe(fitted, taken, log_strength, width)
-            unit = scales.unit
-            # Steps of voxels and terraces are flat and smooth as well.
-            is_first = n_passes == 0 and settings.noise != "WIDE"
-            if is_first:
-                is_free &= ~flat_vertices(points, scales, engine.graph)
-            tick()
-            moved = engine.fit.fit(points, engine.normals(net, scales, features, tick), is_free)
-            del scales, features
-            constraints.apply(moved, points)
-            if is_first:
-                is_clean = clean_places(points, surface, connectivity, unit, engine.rings, blocks)
-                offsets = engine.offsets(points, moved) / unit
-                is_free &= ~hardly_moved(offsets, is_clean, is_free, engine.rings)
-            if n_passes == 0:
-                step = moved - points
-                is_free &= np.sqrt((step * step).sum(axis=0)) < FARTHEST * unit
-                moved[:, ~is_free] = points[:, ~is_free]
-            fitted, n_passes = moved, n_passes + 1
-            tick()
-            tick()
+        if amount > 0.0 and engine.graph.n_faces:
+            if settings.noise == "AUTO":
+                # Of usual strength, so that what is measured does not depend on it.
+                first = run.first_pass(0.0, 0.0)
+                width = engine.wide_parts(engine.taken(points, first), run.unit)
+                if not width.any() and log_strength == 0.0:
+                    fitted, n_passes = first, 1
+                    run.skip()
+            elif settings.noise == "WIDE":
+                # Steps of voxels and terraces are flat and smooth as well: nothing is still.
+                fitted, n_passes = run.next_pass(points, log_strength, width), 1
+            else:
+                fitted, n_passes = run.first_pass(log_strength, width), 1
+            while n_passes < settings.passes and run.is_free.any():
+                fitted, n_passes = run.next_pass(fitted, log_strength, width), n_passes + 1
     except _Stopped:
         is_stopped = True
-    n_still = int(np.count_nonzero(is_movable & ~is_free))
-    share_clean = n_still / max(int(np.count_nonzero(is_movable)), 1)
-    belief = find_belief(points, fitted, unit, engine, edge, share_clean)
+    belief = find_belief(points, fitted, run.unit, engine, edge, run.share_clean())
     # The displacement is added, so that what did not move keeps its bits in any precision.
     change = (fitted - points).astype(noisy.dtype)
     change *= noisy.dtype.type(amount)
     return Learned(noisy + change, n_passes, is_stopped, belief)
+
+
+class _Run:
+    """Passes over a mesh, and which of its vertices are free."""
+
+    def __init__(
+        self,
+        points: NDArray[np.float32],
+        surface: SurfaceMesh,
+        connectivity: Connectivity,
+        engine: FaceEngine,
+        constraints: Constraints,
+        blocks: Blocks,
+        callback: Callback | None,
+    ) -> None:
+        self.points, self.engine, self.constraints = points, engine, constraints
+        self._surface, self._connectivity, self._blocks = surface, connectivity, blocks
+        self._callback = callback
+        self.n_ticks, self._n_done = TICKS, 0
+        self._is_movable = np.ones(points.shape[1], bool)
+        self._is_movable[constraints.pinned] = False
+        self.is_free = self._is_movable.copy()
+        self.unit = np.ones(points.shape[1], np.float32)
+
+    def share_clean(self) -> float:
+        """Return the share of the vertices that may move and stay because they are clean."""
+        n_still = int(np.count_nonzero(self._is_movable & ~self.is_free))
+        return n_still / max(int(np.count_nonzero(self._is_movable)), 1)
+
+    def first_pass(self, log_strength: float, width: float | NDArray[np.float32]) -> NDArray[np.float32]:
+        """Return the positions, shape (3, N), after a pass that also finds out what is still."""
+        scales, features = self.engine.describe(self.points, None, log_strength, width)
+        self.is_free &= ~flat_vertices(self.points, scales, self.engine.graph)
+        moved = self._fitted(scales, features)
+        is_clean = clean_places(
+            self.points, self._surface, self._connectivity, self.unit, self.engine.rings, self._blocks
+        )
+        offsets = self.engine.offsets(self.points, moved) / self.unit
+        self.is_free &= ~hardly_moved(offsets, is_clean, self.is_free, self.engine.rings)
+        moved[:, ~self.is_free] = self.points[:, ~self.is_free]
+        return moved
+
+    def next_pass(
+        self, fitted: NDArray[np.float32], log_strength: float, width: float | NDArray[np.float32]
+    ) -> NDArray[np.float32]:
+        """Return the positions, shape (3, N), after a pass that is guided by fitted ones."""
+        taken = self.engine.taken(self.points, fitted) if fitted is not self.points else None
+        return self._fitted(*self.engine.describe(fitted, taken, log_strength, width))
+
+    def _fitted(self, scales: Scales, features: Features) -> NDArray[np.float32]:
+        """Return the vertices, shape (3, N), that fit the normals that the net wants."""
+        self.unit = scales.unit
+        self._tick()
+        normals = self.engine.normals(load_net(), scales, features, self._tick)
+        moved = self.engine.fit.fit(self.points, normals, self.is_free)
+        self.constraints.apply(moved, self.points)
+        step = moved - self.points
+        is_far = np.sqrt((step * step).sum(axis=0)) > FARTHEST * self.unit
+        if is_far.any():
+            self.is_free &= ~is_far
+            moved[:, is_far] = self.points[:, is_far]
+        self._tick()
+        return moved
+
+    def skip(self) -> None:
+        """Count a pass as done that was not needed."""
+        self._n_done += TICKS
+
+    def _tick(self) -> None:
+        """Tell that a step is done."""
+        self._n_done += 1
+        if self._callback is not None and self._callback(min(self._n_done / self.n_ticks, 1.0), 0.0):
+            raise _Stopped

@@ -19,7 +19,6 @@ from framelet.core import (
     denoise,
 )
 from framelet.core.learned import face_graph
-from framelet.core.surface.geometry import vertex_normals
 from known_shapes import SHAPES, cube, edge_of, hexagons, lifted, sphere, white, wide
 from meshes import (
     MESHES,
@@ -183,6 +182,16 @@ def test_runs_after_one_another_give_the_same_bits(rng):
         assert np.array_equal(found, expected) == (not changes)
 
 
+def test_other_positions_of_a_prepared_mesh_give_the_same_bits(rng):
+    """Also where other edges are long then, and neighborhoods are others."""
+    mesh, cache = noisy(MOVED["closed"](), rng), PreparationCache()
+    points = mesh.vertices.copy()
+    points[40] += 50
+    far, near = mesh.with_vertices(points), noisy(mesh, rng, 0.05)
+    for own in (mesh, near, far, near, mesh, far):
+        assert_same_bits(denoise(own, AUTO, prepared=cache).vertices, denoise(own, AUTO).vertices)
+
+
 @pytest.mark.parametrize("passes", [1, 2, 3])
 def test_progress_rises_to_one(passes, rng):
     mesh, seen = noisy(MOVED["closed"](), rng), []
@@ -240,9 +249,9 @@ def test_vertices_that_may_not_move_keep_their_bits(dtype, rng):
 
 
 def test_borders(rng):
-    """They stay, or go along with themselves and corners along their normals only, or move freely."""
+    """They stay, or move as the fit moves them, which pulls nothing along them: ALONG and FREE are alike."""
     mesh = noisy(triangle_grid(17, 17), rng)
-    is_rim, corners = connect(mesh).is_boundary, [0, 16, 272, 288]
+    is_rim = connect(mesh).is_boundary
     moved = {
         boundary: denoise(mesh, AUTO.with_changes(boundary=boundary), region=AS_SOLVED).vertices
         - mesh.vertices
@@ -251,9 +260,7 @@ def test_borders(rng):
     assert not moved["FIXED"][is_rim].any()
     for boundary in ("ALONG", "FREE"):
         assert lengths(moved[boundary][is_rim]).mean() > 0.01
-    along = moved["ALONG"][corners]
-    assert lengths(np.cross(along, vertex_normals(mesh)[corners])).max() < 1e-5
-    assert lengths(moved["FREE"] - moved["ALONG"])[is_rim].max() > 1e-3
+    assert_same_bits(moved["ALONG"], moved["FREE"])
     for motion in moved.values():
         assert lengths(motion[~is_rim]).mean() > 0.02
 

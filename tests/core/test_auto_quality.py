@@ -4,11 +4,11 @@
 
 import numpy as np
 import pytest
-from checks import lengths
+from checks import assert_same_bits, lengths
 from framelet.core import PRESETS, SurfaceMesh, add_noise, blocks, compare, denoise
 from known_shapes import SHAPES, cube, edge_of, lifted, white
 from mesh_files import read_mesh
-from meshes import faces_of, quad_torus, triangle_torus, union
+from meshes import faces_of, quad_grid, quad_torus, triangle_grid, triangle_torus, union
 
 AUTO = PRESETS["AUTO"].settings
 
@@ -167,6 +167,59 @@ def test_spikes_on_a_clean_surface_come_down(name, height):
         far[faces[(~far | (heights > 0))[faces].any(axis=1)]] = False
     # Under the highest spikes of a small mesh the surroundings may give a little.
     assert far.mean() > 0.3 and left[far].max() < 0.15 and np.median(left[far]) < 0.05
+
+
+def bumpy_sheet(build, size=80):
+    """Return a sheet with gentle hills, and whether its vertices are some edges from the border."""
+    mesh = build(size, size)
+    points = mesh.vertices.copy()
+    points[:, 2] = 1.5 * np.sin(0.25 * points[:, 0]) * np.cos(0.2 * points[:, 1])
+    inside = (points[:, :2].min(axis=0) + 4 < points[:, :2]) & (points[:, :2] < points[:, :2].max(axis=0) - 4)
+    return mesh.with_vertices(points), inside.all(axis=1)
+
+
+@pytest.mark.parametrize("build", [triangle_grid, quad_grid])
+def test_spikes_of_all_heights_go_and_lift_nothing(build, rng):
+    """25 of 3 to 12 edges, up and down, on a clean sheet; nearly all of the rest keeps its bits."""
+    clean, inside = bumpy_sheet(build)
+    spikes = rng.permutation(np.flatnonzero(inside))[:25]
+    heights = np.zeros(clean.n_vertices)
+    heights[spikes] = np.linspace(3, 12, 25) * rng.choice([-1, 1], 25)
+    found = cleaned(lifted(clean, heights)).vertices
+    left = lengths(found - clean.vertices) / edge_of(clean)
+    assert (left[spikes] / np.abs(heights[spikes])).max() < 0.02
+    others = heights == 0
+    assert left[others].max() < 0.1
+    assert (found == clean.vertices).all(axis=1)[others].mean() > 0.97
+
+
+@pytest.mark.parametrize("build", [triangle_grid, quad_grid])
+@pytest.mark.parametrize("height", [0.3, 1.0])
+def test_sparse_impulses_go(build, height, rng):
+    """At a fifth of the vertices, also high ones."""
+    clean, _ = bumpy_sheet(build)
+    mesh = lifted(clean, height * white(clean, rng) * (rng.random(clean.n_vertices) < 0.2))
+    before, after = compare(mesh, clean), compare(cleaned(mesh), clean)
+    assert after.rms_distance < 0.35 * before.rms_distance
+    assert after.mean_angle < 0.2 * before.mean_angle
+
+
+@pytest.mark.parametrize("height", [20, 45, 1000])
+def test_tips_of_spires_stay_and_high_spikes_go(height, rng):
+    """From 30 local edges on; what is around is cleaned as without it."""
+    clean = triangle_torus(40, 80)
+    mesh = lifted(clean, 0.1 * white(clean, rng))
+    heights = np.zeros(clean.n_vertices)
+    heights[1234] = height
+    spiked = mesh.with_vertices(mesh.vertices + lifted(clean, heights).vertices - clean.vertices)
+    found, expected = cleaned(spiked).vertices, cleaned(mesh).vertices
+    edge = edge_of(clean)
+    if height > 30:
+        assert_same_bits(found[1234], spiked.vertices[1234])
+    else:
+        assert lengths(found - clean.vertices)[1234] < 0.5 * edge
+    apart = np.delete(lengths(found - expected), 1234) / edge
+    assert apart.max() < 0.5 and np.median(apart) < 0.01
 
 
 @pytest.mark.parametrize("share", [0.1, 0.3])

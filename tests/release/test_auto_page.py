@@ -6,7 +6,7 @@
 from pathlib import Path
 
 import numpy as np
-from framelet.core.learned import engine, features, net, scales, screened_fit, stillness
+from framelet.core.learned import engine, features, net, scales, screened_fit, stillness, unfolding
 from framelet.core.methods import learned_shrinkage
 
 PAGE = (Path(__file__).resolve().parents[2] / "docs" / "how_auto_works.md").read_text(encoding="utf-8")
@@ -19,6 +19,8 @@ def test_scales():
     assert f"more than {engine.LONG:g} times as long" in WORDS
     assert f"after {scales.LENGTH_AVERAGES} averages" in WORDS
     assert f"around a vertex on {names[scales.LENGTH_SCALE - 1]}" in WORDS
+    assert f"at least {scales.LEAST_LENGTH:g} of what it is on the surface itself" in WORDS
+    assert f"shrunk to less than {scales.SHRUNK:g} of its area" in WORDS
 
 
 def test_features():
@@ -46,15 +48,25 @@ def test_the_net():
 
 def test_the_fit():
     assert f"({screened_fit.NORMAL_PULL} <m_v, v - p_v>² + {screened_fit.TANGENT_PULL} |" in WORDS
-    assert f"{screened_fit.STEPS} Chebyshev steps" in WORDS
     assert f"from {screened_fit.LOWEST} to {screened_fit.HIGHEST}." in WORDS
-    lean = round(np.degrees(np.arccos(screened_fit.LEAN)))
+    assert f"{screened_fit.STEPS} Chebyshev steps, preconditioned by the valence" in WORDS
+    assert f"times {screened_fit.NEEDLE**-2:.0f}. " in WORDS
+    assert f"more than {screened_fit.OUTLIER:g} times what is usual" in WORDS
+    assert f"over {screened_fit.OUTLIER_AVERAGES} averages), are brought" in WORDS
+    assert f"at least {100 * screened_fit.LEAST_OUTLIERS:g} % of the vertices" in WORDS
+    lean = round(np.degrees(np.arccos(unfolding.LEAN)))
     assert f"more than {lean} degrees" in WORDS
-    rounds, steps = screened_fit.UNFOLDING_ROUNDS, screened_fit.STEPS // 2
+    rounds, steps = unfolding.ROUNDS, screened_fit.STEPS // 2
     assert f"up to {rounds} times, and {steps} steps follow" in WORDS
 
 
-def test_what_is_clean():
+def test_what_stays():
+    assert f"by {learned_shrinkage.FARTHEST:g} local edge lengths or more stay" in WORDS
+    assert f"{learned_shrinkage.FARTHEST:g} edges or more from where it would go" in WORDS
     assert f"to within {stillness.CLEAN} local edge lengths" in WORDS
-    assert f"by less than {stillness.HARDLY} local edge lengths" in WORDS
-    assert f"is less than {stillness.NO_NOISE} everywhere (rms), or less than {stillness.HARDLY}" in WORDS
+    assert f"would move by less than {stillness.WIDE} local edge lengths" in WORDS
+    cut = f"(rms, each cut off at {stillness.CUT_OFF})"
+    assert f"by less than {stillness.HARDLY} local edge lengths {cut}" in WORDS
+    assert f"by less than {stillness.NO_NOISE} (rms), or by less than {stillness.HARDLY} (cut off)" in WORDS
+    assert f"all stays that moves by less than {stillness.WIDE}." in WORDS
+    assert (stillness.MANY_COPLANAR, stillness.MOSTLY_CLEAN) == (0.1, 0.25)  # "a tenth", "a quarter"

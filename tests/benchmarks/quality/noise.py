@@ -59,7 +59,7 @@ def half_of(surface: SurfaceMesh) -> np.ndarray:
 
 
 def uneven(surface: SurfaceMesh, seed: int, weak: float, strong: float) -> np.ndarray:
-    """Return positions (N, 3) after weak Gaussian noise along the normals on one half, strong on the other."""
+    """Return positions (N, 3) after noise along the normals, weak on one half, strong on the other."""
     rng = np.random.default_rng(seed)
     sigma = np.where(half_of(surface), strong, weak) * mean_edge_length(surface)
     heights = sigma * rng.normal(size=surface.n_vertices)

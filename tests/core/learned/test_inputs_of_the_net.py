@@ -228,7 +228,7 @@ def test_the_pass_before_is_seen_in_two_columns_only(rng):
     assert np.abs(second.faces[:, 38:]).min(axis=0).min() > 0
     # What a usual noise leaves is near 0, as in a first pass; none at all is far from it.
     usual = taken_module.Taken(np.full(mesh.n_vertices, 0.13, np.float32), 0 * taken.correlation)
-    scales, found = engine.describe(points_of(mesh), usual)
+    _, found = engine.describe(points_of(mesh), usual)
     assert np.abs(found.faces[:, 38]).max() < 0.5 and not found.faces[:, 39].any()
     _, nothing = engine.describe(points_of(mesh), usual._replace(strength=0 * usual.strength))
     assert (nothing.faces[:, 38] < -1.25).all()

@@ -7,7 +7,7 @@ import pytest
 from checks import assert_same_bits
 from framelet.core import connect
 from framelet.core.blocks import Blocks
-from framelet.core.learned import screened_fit
+from framelet.core.learned import screened_fit, unfolding
 from framelet.core.learned.engine import FaceEngine, long_edges
 from kinds import ALONE, KIND, KINDS
 from learned_twins import chebyshev_steps, face_order, fit_problem, ring_matrix, slow_start
@@ -73,7 +73,7 @@ def expected_fit(mesh, normals, n_steps, held=(), weights=None):
 @pytest.fixture
 def as_solved(monkeypatch):
     """The linear problem alone, without outliers."""
-    monkeypatch.setattr(screened_fit, "UNFOLDING_ROUNDS", 0)
+    monkeypatch.setattr(unfolding, "ROUNDS", 0)
     monkeypatch.setattr(screened_fit, "LEAST_OUTLIERS", 2)
 
 
@@ -103,7 +103,7 @@ def test_the_fit_is_a_polynomial_in_the_dense_problem(name, is_held, rng):
 @pytest.mark.usefixtures("exact")
 def test_outliers_are_held_at_the_height_of_their_rings(name, is_held, rng, monkeypatch):
     """Two fits, the second from where outliers are as high as those around that are none."""
-    monkeypatch.setattr(screened_fit, "UNFOLDING_ROUNDS", 0)
+    monkeypatch.setattr(unfolding, "ROUNDS", 0)
     clean = {"torus": triangle_torus, "quads": quad_torus, "sheet": triangle_grid}[name](14, 16)
     mesh = spiked(noisy(clean, rng, 0.02), rng)
     normals, points = np.ascontiguousarray(normals_of(clean).T, np.float32), points_of(mesh)
@@ -126,9 +126,8 @@ def spiked(mesh, rng, n_spikes=6, height=2.0):
     """Return a mesh with a few of its vertices far off."""
     points = mesh.vertices.copy()
     chosen = rng.permutation(mesh.n_vertices)[:n_spikes]
-    points[chosen] += height * np.linalg.norm(points[mesh.edges[0, 0]] - points[mesh.edges[0, 1]]) * (
-        rng.normal(size=(n_spikes, 3)) + [0, 0, 3]
-    )
+    edge = np.linalg.norm(points[mesh.edges[0, 0]] - points[mesh.edges[0, 1]])
+    points[chosen] += height * edge * rng.normal([0, 0, 3], 1, (n_spikes, 3))
     return mesh.with_vertices(points)
 
 
@@ -149,7 +148,9 @@ def test_gaussian_noise_has_no_outliers(rng):
     mesh = noisy(clean, rng, 0.1)
     normals = np.ascontiguousarray(normals_of(clean).T, np.float32)
     fit = fit_of(mesh)
-    solved = fit._solved(points_of(mesh), normals, fit._needle_weights(points_of(mesh)), screened_fit.STEPS, None)
+    solved = fit._solved(
+        points_of(mesh), normals, fit._needle_weights(points_of(mesh)), screened_fit.STEPS, None
+    )
     assert fit._without_outliers(points_of(mesh), solved, None) is None
 
 
@@ -192,7 +193,7 @@ def test_folded_faces_are_unfolded():
     cosines = [
         (normals_of(mesh.with_vertices(x)) * normals.T).sum(axis=1) for x in (points, found.T.astype(float))
     ]
-    assert cosines[0].min() < 0 and cosines[1].min() > screened_fit.LEAN
+    assert cosines[0].min() < 0 and cosines[1].min() > unfolding.LEAN
 
 
 def test_what_cannot_be_unfolded_is_finite_and_stays_held(rng):
@@ -225,5 +226,5 @@ def test_area_vectors_of_fans(kind, rng):
         if len(face) >= 3:
             corners = [mesh.vertices[v][:, None].astype(np.float32) for v in face]
             area = newell(mesh.vertices[face])
-            assert np.abs(screened_fit.fan_areas(corners)[:, 0] - 2 * area).max() < 1e-5
-            assert abs(screened_fit.doubled_areas(corners)[0] - 2 * np.linalg.norm(area)) < 1e-5
+            assert np.abs(unfolding.fan_areas(corners)[:, 0] - 2 * area).max() < 1e-5
+            assert abs(unfolding.doubled_areas(corners)[0] - 2 * np.linalg.norm(area)) < 1e-5
