@@ -176,7 +176,8 @@ def slow_features(mesh, means, scales, taken=None, log_strength=0.0, width=0.0, 
     part[sizes[part] < least_island] = -1 if (sizes > 0).sum() > 1 else 0
     for number in np.unique(part):
         own = part == number
-        result[own, 21:38] = quantiles(spread[own], is_flat[own], log_strength, width)
+        result[own, 21:37] = quantiles(spread[own], is_flat[own], log_strength)
+    result[:, 37] = width
     if taken is not None:
         for f, face in enumerate(faces):
             result[f, 38] = energy(np.mean([taken[0][v] for v in face]) / length[f]) / 4 + 1
@@ -218,7 +219,7 @@ def spread_around(means, faces, spread, log_strength):
     return result
 
 
-def quantiles(energies, is_flat, log_strength, width):
+def quantiles(energies, is_flat, log_strength):
     """Return quantiles over the faces that are not flat; all faces count if there are few."""
     counted = energies[~is_flat] if not is_flat.all() else energies[:1]
     values = []
@@ -229,7 +230,7 @@ def quantiles(energies, is_flat, log_strength, width):
     for band in range(3, 6):
         ordered = np.sort(counted[:, band])
         values += [ordered[round(q * (len(ordered) - 1))] + log_strength for q in (0.5, 0.9)]
-    return [*values, np.log((~is_flat).mean() + 0.01), width]
+    return [*values, np.log((~is_flat).mean() + 0.01)]
 
 
 def slow_net(arrays, mesh, scales, features, pair_features, repeats, clip=6.0):
@@ -327,7 +328,8 @@ def slow_flat_vertices(mesh, scales):
     height = areas[:, 0] / length
     partners = defaultdict(list)
     for f, g, _ in pairs_of(mesh):
-        if np.linalg.norm(normals[f, 0] - normals[g, 0]) * min(height[f], height[g]) < rounding:
+        low = min(height[f], height[g])
+        if low > 16 * rounding and np.linalg.norm(normals[f, 0] - normals[g, 0]) * low < rounding:
             partners[f].append(g)
             partners[g].append(f)
     counts = []

@@ -16,12 +16,21 @@ LEAST_ISLAND = 500
 def find_islands(graph: FaceGraph) -> NDArray[np.int32] | None:
     """Return the number of the connected part of each face, shape (F,), int32; None if there is only one.
 
-    Parts are connected across edges and are numbered by their lowest faces. Each face points to a lower one
-    of its part; in a round faces point where the face that they point to points, and a part that touches a
-    lower one is hooked onto it.
+    Parts are connected across edges and are numbered by their lowest faces.
     """
-    label = np.arange(graph.n_faces, dtype=np.int32)
-    one, two = graph.first[:-1], graph.second[:-1]
+    label = connected(graph.n_faces, graph.first[:-1], graph.second[:-1])
+    roots, island = np.unique(label, return_inverse=True)
+    return island.reshape(-1).astype(np.int32) if len(roots) > 1 else None
+
+
+def connected(n_items: int, one: NDArray[np.int32], two: NDArray[np.int32]) -> NDArray[np.int32]:
+    """Return for each item the lowest item that it is connected with, shape (n,), int32.
+
+    `one` and `two`, shape (P,), are connected pairs. Each item points to a lower one of its part; in a round
+    items point where the item that they point to points, and a part that touches a lower one is hooked onto
+    it.
+    """
+    label = np.arange(n_items, dtype=np.int32)
     while len(one):
         low, high = label.take(one), label.take(two)
         apart = np.flatnonzero(low != high)
@@ -34,8 +43,7 @@ def find_islands(graph: FaceGraph) -> NDArray[np.int32] | None:
             if np.array_equal(above, label):
                 break
             label = above
-    roots, island = np.unique(label, return_inverse=True)
-    return island.reshape(-1).astype(np.int32) if len(roots) > 1 else None
+    return label
 
 
 def faces_of_islands(island: NDArray[np.int32]) -> list[NDArray[np.intp]]:

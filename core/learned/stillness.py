@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is clean and stays put, bit for bit: a rule outside of the net, which moves everything a little.
 
-Two things never come out of noise: faces that are coplanar to the last digit, several of them side by side,
+Two things never come out of noise: many faces side by side that are coplanar to the last digit,
 and places where cubic polynomials fit two-rings to within `CLEAN` local edge lengths. The first stay flat.
 Where the second are frequent, vertices stay
 that a pass would hardly move: creases of clean meshes, but not noise that begins beside them.
@@ -21,13 +21,21 @@ from ..surface.connectivity import Connectivity
 from ..surface.distance_rings import Adjacency
 from ..surface.surface_mesh import SurfaceMesh
 from .face_graph import FaceGraph, Polygons
+from .islands import connected
 from .scales import Scales
 
 ROUNDING = 4.0
 """Units of rounding of the coordinates by which the corners of coplanar faces may miss their plane."""
 
-MANY_COPLANAR = 0.1
-"""Share of coplanar faces from which one that has a single coplanar neighbor is no coincidence."""
+LEAST_HEIGHT = 16
+"""Height of a face, in what its corners may miss, from which its normal says something."""
+
+FLAT_FACES, FLAT_SHARE = 30, 0.02
+"""Triangles in one plane from which they are flat, and the share of all that suffices. Plateaus of a scan with
+heights in steps are smaller."""
+
+MOSTLY_FLAT = 0.5
+"""Share of all triangles that are flat from which two in one plane are flat, too."""
 
 CLEAN = 0.004
 """Leftovers of the fits, in local edge lengths, below which a two-ring is clean."""
@@ -102,41 +110,38 @@ def hardly_moved(
 
 
 def _flat_faces(points: NDArray[np.float32], scales: Scales, graph: FaceGraph) -> NDArray[np.bool_]:
-    """Return faces that are coplanar with others, shape (F,).
+    """Return faces of flat parts, which are connected and in one plane, shape (F,).
 
-    By chance one neighbor may be. Two are no chance, or one that has two itself, or one where many have one.
-    The corners of a polygon beyond three count like neighbors.
+    Polygons count as the triangles that they are made of.
     """
     normals = scales.normals[..., 0]
     rounding = np.float32(ROUNDING) * np.spacing(np.abs(points).max(initial=np.float32(1)))
-    counts = np.zeros(graph.n_faces, np.int32)
-    is_pair = np.zeros(graph.n_pairs + 1, bool)
+    n_triangles = np.ones(graph.n_faces, np.int32)
+    is_pair = np.zeros(graph.n_pairs, bool)
 
     def compare(start: int, stop: int) -> None:
         one, two = graph.first[start:stop], graph.second[start:stop]
         apart = normals.take(two, axis=1) - normals.take(one, axis=1)
         height = np.minimum(_heights(scales, one), _heights(scales, two))
         is_pair[start:stop] = (apart * apart).sum(axis=0) * height * height < rounding * rounding
+        # The normal of a face next to without area is nothing but rounding.
+        is_pair[start:stop] &= height > LEAST_HEIGHT * rounding
 
     def count(faces: slice, polygons: Polygons) -> None:
-        counts[faces] = is_pair[polygons.pairs].sum(axis=0)
         center = scales.centroids[:, faces, 0]
         own = normals[:, faces]
         for corners in polygons.corners[3:]:
             away = points.take(corners, axis=1) - center
-            counts[faces] += np.abs((away * own).sum(axis=0)) < rounding
+            n_triangles[faces] += np.abs((away * own).sum(axis=0)) < rounding
 
-    is_flat = np.zeros(graph.n_faces, bool)
     graph.for_pairs(compare)
     graph.for_faces(count)
-    is_common = np.count_nonzero(counts) > MANY_COPLANAR * graph.n_faces
-
-    def decide(faces: slice, polygons: Polygons) -> None:
-        own = counts[faces]
-        partners = np.where(is_pair[polygons.pairs], counts[polygons.neighbors], 0).max(axis=0)
-        is_flat[faces] = (own > 1) | ((own == 1) & (is_common | (partners > 1)))
-
-    graph.for_faces(decide)
+    pairs = np.flatnonzero(is_pair)
+    part = connected(graph.n_faces, graph.first[pairs], graph.second[pairs])
+    sizes = np.bincount(part, n_triangles, graph.n_faces)
+    is_flat: NDArray[np.bool_] = sizes[part] >= min(FLAT_FACES, max(2.0, FLAT_SHARE * n_triangles.sum()))
+    if n_triangles[is_flat].sum() > MOSTLY_FLAT * n_triangles.sum():
+        is_flat |= sizes[part] >= 2  # planes are what this mesh is made of, and some are small
     return is_flat
 
 

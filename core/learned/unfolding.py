@@ -15,6 +15,9 @@ from .face_graph import FaceGraph, Polygons
 LEAN = 0.5
 """Cosine to its wanted normal below which a face is folded: 60 degrees."""
 
+COLLAPSED = 1e-4
+"""Doubled area, in squared lengths of its edges, below which a face is a line."""
+
 ROUNDS = 12
 
 
@@ -83,9 +86,13 @@ def _folded(
             start: int, stop: int, group: Polygons = group, chosen: NDArray[np.intp] | None = chosen
         ) -> NDArray[np.bool_]:
             own = np.arange(start, stop) if chosen is None else chosen[start:stop]
-            area = fan_areas([points.take(corner[own], axis=1) for corner in group.corners])
+            corners = [points.take(corner[own], axis=1) for corner in group.corners]
+            area = fan_areas(corners)
+            spans = sum(((corner - corners[0]) ** 2).sum(axis=0) for corner in corners[1:])
             along = (area * normals[:, group.begin + own]).sum(axis=0)
-            return along < np.float32(LEAN) * np.sqrt((area * area).sum(axis=0))
+            size = np.sqrt((area * area).sum(axis=0))
+            # A face that has collapsed to a line leans nowhere.
+            return (along < np.float32(LEAN) * size) & (size > COLLAPSED * spans)
 
         n_items = group.end - group.begin if chosen is None else len(chosen)
         places = graph.blocks.indices(is_folded, n_items)

@@ -182,9 +182,7 @@ class _Run:
         self.constraints.apply(moved, self.points)
         step = moved - self.points
         is_far = np.sqrt((step * step).sum(axis=0)) > FARTHEST * self.unit
-        if is_far.any():
-            self.is_free &= ~is_far
-            moved[:, is_far] = self.points[:, is_far]
+        moved[:, is_far] = self.points[:, is_far]
         self._tick()
         return moved
 

@@ -6,7 +6,7 @@
 from pathlib import Path
 
 import numpy as np
-from framelet.core.learned import engine, features, net, scales, screened_fit, stillness, unfolding
+from framelet.core.learned import engine, features, islands, net, scales, screened_fit, stillness, unfolding
 from framelet.core.methods import learned_shrinkage
 
 PAGE = (Path(__file__).resolve().parents[2] / "docs" / "how_auto_works.md").read_text(encoding="utf-8")
@@ -32,7 +32,7 @@ def test_features():
         assert sum(int(row.rsplit("|", 2)[1]) for row in rows) == total
     assert f"log(x² + {features.FLOOR:.4f})" in WORDS
     assert f"spread by A^{features.SPREAD_AVERAGES}" in WORDS
-    assert f"parts below {features.LEAST_ISLAND} faces together" in WORDS
+    assert f"parts below {islands.LEAST_ISLAND} faces together" in WORDS
     assert f"below a Strength of {learned_shrinkage.WEAKEST}" in WORDS.lower().replace("strength", "Strength")
 
 
@@ -44,6 +44,10 @@ def test_the_net():
     assert f"the state V (3 x {scales.N_SCALES}) and {net.HIDDEN} scalars" in WORDS
     assert f"with {net.INPUT_HIDDEN} hidden units. Each of {len(net.REPEATS)} layers" in WORDS
     assert f"repeated {', '.join(map(str, net.REPEATS))} times" in WORDS
+
+
+def test_the_width():
+    assert f"above {engine.WIDE_FROM:g} and the strength above {engine.WEAK:g} local edge lengths" in WORDS
 
 
 def test_the_fit():
@@ -61,8 +65,8 @@ def test_the_fit():
 
 
 def test_what_stays():
-    assert f"by {learned_shrinkage.FARTHEST:g} local edge lengths or more stay" in WORDS
-    assert f"{learned_shrinkage.FARTHEST:g} edges or more from where it would go" in WORDS
+    assert f"by more than {learned_shrinkage.FARTHEST:g} local edge lengths stay" in WORDS
+    assert f"more than {learned_shrinkage.FARTHEST:g} edges from where it would go" in WORDS
     assert f"to within {stillness.CLEAN} local edge lengths" in WORDS
     assert f"would move by less than {stillness.WIDE} local edge lengths" in WORDS
     cut = f"(rms, each cut off at {stillness.CUT_OFF})"

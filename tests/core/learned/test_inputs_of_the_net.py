@@ -7,9 +7,10 @@ import pytest
 from checks import assert_same_bits, lengths, random_rotation
 from framelet.core import SurfaceMesh, connect
 from framelet.core.learned import features as features_module
+from framelet.core.learned import islands as islands_module
 from framelet.core.learned import scales as scales_module
 from framelet.core.learned import taken as taken_module
-from framelet.core.learned.engine import LONG, FaceEngine, long_edges
+from framelet.core.learned.engine import LONG, WEAK, WIDE_FROM, FaceEngine, long_edges
 from framelet.core.learned.net import load_net
 from kinds import ALONE, KINDS
 from learned_twins import (
@@ -20,6 +21,7 @@ from learned_twins import (
     SPREAD,
     face_order,
     pairs_of,
+    polygons_of,
     ring_matrix,
     slow_features,
     slow_offsets,
@@ -239,7 +241,7 @@ def test_the_pass_before_is_seen_in_two_columns_only(rng):
     ("log_strength", "width", "is_first"), [(0.0, 0.0, True), (0.7, 1.0, True), (-0.5, -1.0, False)]
 )
 def test_features(kind, log_strength, width, is_first, rng, monkeypatch):
-    monkeypatch.setattr(features_module, "LEAST_ISLAND", 4)
+    monkeypatch.setattr(islands_module, "LEAST_ISLAND", 4)
     mesh = KINDS[kind]()
     if kind not in ("a flat part", "half a sheet"):
         mesh = noisy(mesh, rng)
@@ -247,6 +249,7 @@ def test_features(kind, log_strength, width, is_first, rng, monkeypatch):
     taken = None
     if not is_first:
         taken = engine.taken(points_of(noisy(mesh, rng)), points_of(mesh))
+        width = rng.choice([0, 1], engine.graph.n_faces).astype(np.float32)
     scales, found = engine.describe(points_of(mesh), taken, log_strength, width)
     # The twin takes the same scales, so that what rounding does to thin faces does not count.
     same = (
@@ -288,9 +291,36 @@ def test_features_do_not_depend_on_pose_and_numbers(kind, rng):
     assert np.abs(np.sort(found.pairs, axis=0) - np.sort(plain.pairs, axis=0)).max() < 0.02
 
 
+def test_the_noise_of_islands_is_wide_where_it_is_alike_at_neighbors_and_strong(rng, monkeypatch):
+    """By the medians over the first corners of the faces of each island; small ones together."""
+    monkeypatch.setattr(islands_module, "LEAST_ISLAND", 300)
+    parts = [triangle_torus(12, 16), quad_torus(15, 25), triangle_torus(5, 6), triangle_torus(14, 14)]
+    mesh = union(*parts, quad_torus(4, 5))
+    engine = engine_of(mesh)
+    number = np.repeat([0, 1, 2, 3, 2], [part.n_vertices for part in (*parts, quad_torus(4, 5))])
+    first = np.array([polygon[0] for polygon in polygons_of(mesh)])
+    for _ in range(20):
+        correlation = rng.uniform(0, 0.1, 4)[number] + rng.uniform(-0.03, 0.03, mesh.n_vertices)
+        strength = rng.uniform(0.0, 0.09, 4)[number] + rng.uniform(0, 0.01, mesh.n_vertices)
+        taken = taken_module.Taken(strength.astype(np.float32), correlation.astype(np.float32))
+        unit = rng.uniform(0.5, 2, mesh.n_vertices).astype(np.float32)
+        expected = np.zeros(len(first))
+        for own in range(4):
+            chosen = number[first] == own
+            corners = first[chosen]
+            is_alike = np.median(taken.correlation[corners]) > WIDE_FROM
+            expected[chosen] = is_alike and np.median((taken.strength / unit)[corners]) > WEAK
+        assert engine.wide_parts(taken, unit).tolist() == expected.tolist()
+    alone = engine_of(parts[0])
+    some = np.full(parts[0].n_vertices, 0.1, np.float32)
+    for strength, correlation in ((some, some), (some, 0 * some), (0 * some, some)):
+        found = alone.wide_parts(taken_module.Taken(strength, correlation), 0 * some + 1)
+        assert (found == float(strength.any() and correlation.any())).all()
+
+
 def test_islands_are_described_as_if_alone(rng, monkeypatch):
     """Also with other lengths of edges, and among faces of other kinds."""
-    monkeypatch.setattr(features_module, "LEAST_ISLAND", 50)
+    monkeypatch.setattr(islands_module, "LEAST_ISLAND", 50)
     first = noisy(triangle_torus(10, 14), rng, 0.1)
     second = noisy(quad_torus(8, 10), rng, 0.3)
     second = second.with_vertices(7 * second.vertices)
