@@ -31,8 +31,8 @@ LEAST_HEIGHT = 16
 """Height of a face, in what its corners may miss, from which its normal says something."""
 
 FLAT_FACES, FLAT_SHARE = 30, 0.02
-"""Triangles in one plane from which they are flat, and the share of all that suffices. Plateaus of a scan with
-heights in steps are smaller."""
+"""Triangles in one plane from which they are flat, and the share of all that suffices. Plateaus of a scan in
+steps of height are smaller."""
 
 MOSTLY_FLAT = 0.5
 """Share of all triangles that are flat from which two in one plane are flat, too."""

@@ -119,6 +119,8 @@ def learned_shrinkage(
                 fitted, n_passes = run.next_pass(fitted, log_strength, width), n_passes + 1
     except _Stopped:
         is_stopped = True
+    if not run.is_free.any():
+        n_passes = 0  # one was needed to find out that there is nothing to do
     belief = find_belief(points, fitted, run.unit, engine, edge, run.share_clean())
     # The displacement is added, so that what did not move keeps its bits in any precision.
     change = (fitted - points).astype(noisy.dtype)

@@ -60,7 +60,7 @@ TEXTS = {
     # Engines
     "Engine": "Verfahren",
     "How the surface is cleaned": "Wie die Oberfläche gereinigt wird",
-    "Learned shrinkage: cleans the directions of the faces, then fits the vertices to them; keeps features": (
+    "Learned shrinkage: cleans the directions of the faces, then fits the vertices; keeps features": (
         "Gelernte Schrumpfung: reinigt die Richtungen der Flächen und passt die Punkte daran an; erhält Kanten"
     ),
     "Positions (paper)": "Positionen (Artikel)",
