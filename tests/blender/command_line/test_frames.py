@@ -72,7 +72,9 @@ def test_every_preset(command, fails, sheets, read_ply, tmp_path, kind, key):
     assert (result.code, result.err) == (0, "")
     single = surface.with_vertices(surface.vertices.astype(np.float32))  # as in the file
     expected = denoise(single, PRESETS[key].settings).vertices
-    np.testing.assert_allclose(read_ply(tmp_path / "out.ply").vertices, expected, atol=TOLERANCE)
+    # Blender numbers edges in its own way, and the net works in single precision.
+    tolerance = 1e-4 if PRESETS[key].settings.method == "AUTO" else TOLERANCE
+    np.testing.assert_allclose(read_ply(tmp_path / "out.ply").vertices, expected, atol=tolerance)
 
 
 @pytest.mark.parametrize(
