@@ -127,14 +127,19 @@ def voxels(mesh: SampleMesh, rng: np.random.Generator) -> tuple[NDArray[np.float
 
 
 def range_image(mesh: SampleMesh, rng: np.random.Generator) -> tuple[NDArray[np.float64], float]:
-    """Errors along the line of sight, larger at grazing angles, a little smooth."""
+    """Errors along the line of sight: partly smooth, larger at grazing angles, sometimes in whole steps."""
     view = mesh.rotation(rng)[:, 0]
     grazing = 1.0 / np.maximum(np.abs(mesh.vertex_normals @ view), 0.2)
-    sigma = log_uniform(rng, 0.02, 0.25)
-    n_averages = int(rng.integers(0, 6))
-    grain = _wide(mesh, rng, n_averages) if n_averages else rng.normal(size=mesh.n_vertices)
-    step = sigma * grazing ** rng.uniform(0, 1) * grain * _unit(mesh, rng)
-    return mesh.vertices + step[:, None] * view, 1.0 if n_averages > 1 else -1.0
+    share = rng.uniform(0, 1)
+    grain = share * _wide(mesh, rng, int(rng.integers(1, 8)))
+    grain += np.sqrt(1 - share**2) * rng.normal(size=mesh.n_vertices)
+    sigma = log_uniform(rng, 0.03, 0.25) * mesh.mean_edge
+    depth = mesh.vertices @ view
+    found = depth + sigma * grazing ** rng.uniform(0, 1) * grain
+    if rng.random() < 0.5:
+        step = log_uniform(rng, 0.3, 2.0) * sigma
+        found = np.round(found / step) * step
+    return mesh.vertices + (found - depth)[:, None] * view, 1.0 if share > 0.6 else 0.0
 
 
 def none(mesh: SampleMesh, rng: np.random.Generator) -> tuple[NDArray[np.float64], float]:
@@ -144,15 +149,15 @@ def none(mesh: SampleMesh, rng: np.random.Generator) -> tuple[NDArray[np.float64
 
 
 MIXTURE: dict[Draw, float] = {
-    white: 0.23,
-    directions: 0.06,
-    correlated: 0.27,
-    uneven: 0.12,
-    impulsive: 0.09,
+    white: 0.21,
+    directions: 0.05,
+    correlated: 0.22,
+    uneven: 0.1,
+    impulsive: 0.08,
     spikes: 0.03,
     quantized: 0.05,
-    voxels: 0.2,
-    range_image: 0.1,
+    voxels: 0.15,
+    range_image: 0.22,
     none: 0.05,
 }
 """How often each kind is drawn; voxels on meshes that have them."""
