@@ -321,25 +321,31 @@ def chebyshev_steps(form, gradient, preconditioner, n_steps, lowest, highest):
 
 
 def slow_flat_vertices(mesh, scales):
-    """Return which vertices belong to a face that is coplanar with others, bool (N,)."""
+    """Return which vertices belong to faces of a flat part, bool (N,)."""
     normals, centroids, areas, length = scales
     points, faces = mesh.vertices, polygons_of(mesh)
     rounding = 4 * np.spacing(np.float32(max(1, np.abs(points).max())))
     height = areas[:, 0] / length
-    partners = defaultdict(list)
-    for f, g, _ in pairs_of(mesh):
+    coplanar = []
+    for f, g, edge in pairs_of(mesh):
         low = min(height[f], height[g])
         if low > 16 * rounding and np.linalg.norm(normals[f, 0] - normals[g, 0]) * low < rounding:
-            partners[f].append(g)
-            partners[g].append(f)
-    counts = []
-    for f, face in enumerate(faces):
-        away = [abs((points[v] - centroids[f, 0]) @ normals[f, 0]) for v in face[3:]]
-        counts.append(len(partners[f]) + sum(a < rounding for a in away))
-    is_common = sum(c > 0 for c in counts) > 0.1 * len(faces)
+            coplanar.append((f, g, edge))
+    part = parts_of(len(faces), coplanar)
+    triangles = [
+        1 + sum(abs((points[v] - centroids[f, 0]) @ normals[f, 0]) < rounding for v in face[3:])
+        for f, face in enumerate(faces)
+    ]
+    size = defaultdict(int)
+    for own, number in zip(part, triangles, strict=True):
+        size[own] += number
+    total = sum(triangles)
+    needed = min(30, max(2, 0.02 * total))
+    if sum(number for number in size.values() if number >= needed) > 0.5 * total:
+        needed = 2
     result = np.zeros(mesh.n_vertices, bool)
-    for f, face in enumerate(faces):
-        if counts[f] > 1 or (counts[f] == 1 and (is_common or any(counts[g] > 1 for g in partners[f]))):
+    for own, face in zip(part, faces, strict=True):
+        if size[own] >= needed:
             result[face] = True
     return result
 

@@ -60,6 +60,7 @@ def test_the_fit():
     assert f"at least {100 * screened_fit.LEAST_OUTLIERS:g} % of the vertices" in WORDS
     lean = round(np.degrees(np.arccos(unfolding.LEAN)))
     assert f"more than {lean} degrees" in WORDS
+    assert f"doubled area is at most {unfolding.COLLAPSED:.4f} of the squared distances" in WORDS
     rounds, steps = unfolding.ROUNDS, screened_fit.STEPS // 2
     assert f"up to {rounds} times, and {steps} steps follow" in WORDS
 
@@ -73,4 +74,11 @@ def test_what_stays():
     assert f"by less than {stillness.HARDLY} local edge lengths {cut}" in WORDS
     assert f"by less than {stillness.NO_NOISE} (rms), or by less than {stillness.HARDLY} (cut off)" in WORDS
     assert f"all stays that moves by less than {stillness.WIDE}." in WORDS
-    assert (stillness.MANY_COPLANAR, stillness.MOSTLY_CLEAN) == (0.1, 0.25)  # "a tenth", "a quarter"
+    n_flat, share = stillness.FLAT_FACES, f"{100 * stillness.FLAT_SHARE:g} %"
+    assert f"at least {n_flat} triangles that touch along edges and lie in exactly one plane" in WORDS
+    assert f"with fewer than {n_flat / stillness.FLAT_SHARE:,.0f} triangles {share} of all suffice" in WORDS
+    assert f"at least {n_flat} triangles, or at least {share} of all triangles and two" in WORDS
+    assert f"whose height is at most {stillness.LEAST_HEIGHT} times that rounding" in WORDS
+    assert f"that rounding, {stillness.ROUNDING:g} units in the last place of the largest coordinate" in WORDS
+    # "more than half", "a quarter"
+    assert (stillness.MOSTLY_FLAT, stillness.MOSTLY_CLEAN) == (0.5, 0.25)

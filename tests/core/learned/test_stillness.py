@@ -44,12 +44,19 @@ def bumpy_in_places(mesh, share, rng):
     return mesh.with_vertices(points)
 
 
-@pytest.mark.parametrize("share", [0.0, 0.05, 0.3, 0.5, 0.7, 0.9, 1.0])
-@pytest.mark.parametrize("name", ["triangle grid", "quad grid", "mixed sheet", "two sheets"])
+SHEETS = {
+    "two sheets": lambda: union(triangle_grid(), quad_grid()),
+    "sheet of 512": lambda: triangle_grid(17, 17),
+    "sheet of 1800": lambda: triangle_grid(31, 31),
+    "quads and triangles": lambda: union(quad_grid(11, 13), triangle_grid(13, 11)),
+}
+
+
+@pytest.mark.parametrize("share", [0.0, 0.05, 0.1, 0.3, 0.5, 0.7, 0.9, 1.0])
+@pytest.mark.parametrize("name", ["triangle grid", "quad grid", "mixed sheet", *SHEETS])
 def test_flat_vertices(name, share, rng):
-    """Against a loop over pairs of faces: few that are coplanar by chance, some, and many."""
-    sheets = {"two sheets": lambda: union(triangle_grid(), quad_grid())}
-    mesh = bumpy_in_places((MESHES | sheets)[name](), share, rng)
+    """Against a flood fill from face to face: few that are coplanar by chance, some, and many."""
+    mesh = bumpy_in_places((MESHES | SHEETS)[name](), share, rng)
     engine, points, scales = described(mesh)
     means = engine.rings.outward(engine.rings.mean(engine.rings.inward(np.eye(mesh.n_vertices))))
     found = stillness.flat_vertices(points, scales, engine.graph)
@@ -57,25 +64,49 @@ def test_flat_vertices(name, share, rng):
     assert share > 0 or found.mean() > 0.7
 
 
-def test_one_coplanar_pair_is_a_coincidence_and_three_faces_are_none(rng):
-    """Unless there are many of them."""
-    clean = triangle_grid(16, 16)
-    heights = rng.integers(1, 4000, clean.n_vertices) / 1024
-    faces = np.array(faces_of(clean))
+def flat_with(clean, *parts):
+    """Return the flat vertices of a grid where all but those in some parts are lifted at random."""
+    points = clean.vertices.copy()
+    points[:, 2] = np.random.default_rng(7).integers(1, 4000, clean.n_vertices) / 1024
+    for part in parts:
+        points[part, 2] = 0
+    engine, points, scales = described(clean.with_vertices(points))
+    return set(np.flatnonzero(stillness.flat_vertices(points, scales, engine.graph)).tolist())
 
-    def flat_with(vertices):
-        points = clean.vertices.copy()
-        points[:, 2] = heights
-        points[vertices, 2] = 0
-        engine, points, scales = described(clean.with_vertices(points))
-        return set(np.flatnonzero(stillness.flat_vertices(points, scales, engine.graph)).tolist())
 
-    one, two = next((a, b) for a in faces for b in faces if len(set(a) & set(b)) == 2 and 100 in a)
-    pair = set(one) | set(two)
-    assert flat_with(sorted(pair)) == set()
-    third = next(set(f) for f in faces if len(set(f) & set(one)) == 2 and not set(f) <= pair)
-    assert flat_with(sorted(pair | third)) >= pair | third
-    assert flat_with(range(clean.n_vertices)) == set(range(clean.n_vertices))
+def strip(columns, row, n_triangles):
+    """Return the vertices of the first triangles below a row of a grid, which lie side by side."""
+    k = np.arange(n_triangles + 2)
+    return ((row + (k + 1) % 2) * columns + k // 2 + 1).tolist()
+
+
+@pytest.mark.parametrize(("rows", "columns", "needed"), [(6, 11, 2), (16, 16, 9), (28, 28, 30), (41, 41, 30)])
+def test_thirty_triangles_in_one_plane_are_flat_or_two_percent_of_all(rows, columns, needed):
+    """And at least two. Fewer are a coincidence, and parts that do not touch are not counted together."""
+    clean = triangle_grid(rows, columns)
+    few, others, enough = (
+        strip(columns, 1, needed - 1),
+        strip(columns, 4, needed - 1),
+        strip(columns, 1, needed),
+    )
+    assert flat_with(clean, few, others) == set()
+    assert flat_with(clean, enough, others) == set(enough)
+
+
+def test_two_triangles_are_flat_where_more_than_half_of_all_are():
+    clean, pair, one = triangle_grid(16, 16), strip(16, 11, 2), strip(16, 13, 1)
+    half, more = (np.arange(16 * rows).tolist() for rows in (8, 9))  # 210 and 240 of 450 triangles
+    assert flat_with(clean, half, pair, one) == set(half)
+    assert flat_with(clean, more, pair, one) == set(more) | set(pair)
+
+
+def test_polygons_count_as_their_triangles():
+    """Bent ones count once: a single flat quad suffices among 30, and of some 225 it takes three."""
+    for rows, columns, needed in ((6, 7, 1), (16, 16, 3)):
+        clean = quad_grid(rows, columns)
+        few, enough = (strip(columns, 1, 2 * n) if n else [] for n in (needed - 1, needed))
+        assert flat_with(clean, few) == set()
+        assert flat_with(clean, enough) == set(enough)
 
 
 def test_a_spike_beside_a_face_without_area_is_not_flat():
