@@ -335,7 +335,7 @@ def test_strength_has_no_jumps(shape, sigma, rng):
         ]
         moved = [np.sqrt((lengths(b - a) ** 2).mean()) for a, b in pairwise(results)]
         angles = [compare(clean.with_vertices(x), mesh).mean_angle for x in results[::5]]
-        assert angles == sorted(angles)
+        assert min(np.diff(angles)) > -0.02  # degrees
         return np.array(moved), np.sqrt((lengths(results[-1] - results[0]) ** 2).mean())
 
     coarse, way = steps(np.linspace(0, 4, 81).round(2))
