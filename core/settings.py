@@ -204,7 +204,7 @@ PRESETS: Mapping[str, Preset] = {
     "FREE_FORM": Preset(
         "Scan (free-form)",
         "For scans and organic shapes: takes noise that is several edges wide for noise, too",
-        {"method": "AUTO", "noise": "WIDE"},
+        {"method": "AUTO", "noise": "WIDE", "strength": 2.0},
     ),
     "PRISMATIC": Preset(
         "CAD (prismatic)",
@@ -219,7 +219,7 @@ PRESETS: Mapping[str, Preset] = {
     "SCULPT": Preset(
         "Sculpt (keep detail)",
         "For sculpted and finely detailed meshes with a little noise: keeps strokes a few edges wide",
-        {"method": "AUTO", "noise": "FINE", "strength": 0.75},
+        {"method": "AUTO", "noise": "FINE"},
     ),
     "POSITIONS": Preset(
         "Positions",
