@@ -58,7 +58,7 @@ test-training: ## Train for a minute, and test the training
 
 .PHONY: train
 train: ## Make meshes, train for hours and write the arrays of the net; goes on where it was cut off
-	$(ENVIRONMENT) run training -- -m training --write
+	$(ENVIRONMENT) run training -- -m training --write $(if $(START),--start $(START))
 
 # test-4.2, test-4.5, test-5.2
 .PHONY: $(BLENDERS:%=test-%)
