@@ -15,7 +15,7 @@ BASE_PER_VERTEX = 110
 BASE_PER_CORNER = 45
 """Bytes for the neighborhoods and for positions in several forms, which every method needs."""
 
-LEARNED_PER_CORNER = 150
+LEARNED_PER_CORNER = 250
 """Bytes for learned shrinkage: states of faces and pairs, and features; all figures here are measured by
 `tests/benchmarks/speed`."""
 

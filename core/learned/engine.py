@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from copy import copy
 
 import numpy as np
@@ -19,7 +18,6 @@ from ..surface.surface_mesh import SurfaceMesh
 from .face_graph import FaceGraph
 from .features import Features, find_features
 from .islands import faces_of_islands, find_islands
-from .net import Net
 from .scales import Scales, find_scales
 from .screened_fit import ScreenedFit
 from .taken import Taken, find_taken
@@ -122,12 +120,6 @@ class FaceEngine:
             is_wide = np.median(correlation[part]) > WIDE_FROM and np.median(strength[part]) > WEAK
             result[part] = is_wide
         return result
-
-    def normals(
-        self, net: Net, scales: Scales, features: Features, tick: Callable[[], None] = lambda: None
-    ) -> NDArray[np.float32]:
-        """Return clean unit normals of the faces of the graph, shape (3, F)."""
-        return net.normals(scales, features, self.graph, tick)
 
     def vertex_normals(self, points: NDArray[np.float32]) -> NDArray[np.float32]:
         """Return unit vertex normals, shape (3, N): area-weighted means of the faces around a vertex."""

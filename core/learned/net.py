@@ -95,7 +95,11 @@ class Net:
 
         `tick` is called after each layer. The normals of `scales` are used up.
         """
-        return _Run(self, scales, features, graph).result(tick)
+        return self.begun(scales, features, graph).normals(tick)
+
+    def begun(self, scales: Scales, features: Features, graph: FaceGraph) -> NetRun:
+        """Return a run that has taken in the features, so that their memory can be used for the rest."""
+        return NetRun(self, scales, features, graph)
 
 
 @cache
@@ -115,7 +119,7 @@ def pair_weights(scales: Scales, graph: FaceGraph) -> tuple[NDArray[np.float32],
     return weight, np.reciprocal(areas)
 
 
-class _Run:
+class NetRun:
     """A run of the net on a mesh: the state of faces and pairs."""
 
     def __init__(self, net: Net, scales: Scales, features: Features, graph: FaceGraph) -> None:
@@ -171,7 +175,7 @@ class _Run:
         graph.for_pairs(kernel)
         return factor
 
-    def result(self, tick: Callable[[], None]) -> NDArray[np.float32]:
+    def normals(self, tick: Callable[[], None]) -> NDArray[np.float32]:
         """Go through all layers and return unit normals, shape (3, F)."""
         layers = self.net.layers
         for layer, after, repeats in zip(layers, [*layers[1:], None], REPEATS, strict=True):

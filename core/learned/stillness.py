@@ -62,6 +62,9 @@ pass hardly moves it."""
 CUT_OFF = 0.1
 """What one vertex counts for at most among those around it: a spike says nothing of its neighbors."""
 
+FEW_LEFT = 0.05
+"""Share of the vertices up to which those that are left on a clean mesh may move twice as much and stay."""
+
 NEAR = 4
 """Averages over the vertices around."""
 
@@ -104,7 +107,8 @@ def hardly_moved(
     strength = np.sqrt(squares[rest].mean(dtype=np.float64))
     is_mostly_clean = np.count_nonzero(is_clean) > MOSTLY_CLEAN * len(is_clean)
     cut = np.sqrt(np.minimum(squares[rest], CUT_OFF**2).mean(dtype=np.float64))
-    if strength < NO_NOISE or (is_mostly_clean and cut < HARDLY):
+    limit = HARDLY if np.count_nonzero(rest) > FEW_LEFT * len(rest) else 2 * HARDLY
+    if strength < NO_NOISE or (is_mostly_clean and cut < limit):
         still = still | (squares < WIDE**2)
     return still
 

@@ -24,6 +24,10 @@ NOISE_STYLES = dict(
             *((blue, "o") for blue in ("#c6dbef", "#9ecae1", "#6baed6", "#3182bd", "#08519c")),
             ("#e6842a", "s"),
             ("#3a9a4b", "^"),
+            *((purple, "v") for purple in ("#cbc9e2", "#9e9ac8", "#6a51a3")),
+            ("#a65628", "D"),
+            ("#e7298a", "P"),
+            ("#666666", "X"),
         ),
         strict=True,
     )

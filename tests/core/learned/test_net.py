@@ -111,7 +111,7 @@ def test_normals_turn_with_the_mesh(rng):
     results = []
     for own in (mesh, mesh.with_vertices(mesh.vertices @ rotation)):
         engine, scales, features = described(own)
-        results.append(engine.normals(net.load_net(), scales, features).T)
+        results.append(net.load_net().normals(scales, features, engine.graph).T)
     assert np.abs(results[1] - results[0] @ rotation).max() < 5e-3
 
 
@@ -133,7 +133,7 @@ def test_normals_are_given_back_where_the_net_does_nothing(rng):
 def test_it_ticks_after_each_layer(rng):
     mesh, ticks = noisy(NETS["border"](), rng), []
     engine, scales, features = described(mesh)
-    engine.normals(net.load_net(), scales, features, lambda: ticks.append(0))
+    net.load_net().normals(scales, features, engine.graph, lambda: ticks.append(0))
     assert len(ticks) == len(net.REPEATS)
 
 
