@@ -232,10 +232,10 @@ def test_noise_at_some_vertices_only_is_taken_away(share, rng):
 @pytest.mark.parametrize(
     ("file", "noise", "angle"),
     [
-        ("fandisk", None, 2.9),
-        ("fandisk", "fandisk_noisy03", 3.6),
-        ("fandisk", "fandisk_noisy07", 10.6),
-        ("bunny_closed35k", None, 6.2),
+        ("fandisk", None, 1.65),
+        ("fandisk", "fandisk_noisy03", 2.0),
+        ("fandisk", "fandisk_noisy07", 4.4),
+        ("bunny_closed35k", None, 5.5),
     ],
 )
 def test_figures_of_files(shared_meshes, file, noise, angle):
