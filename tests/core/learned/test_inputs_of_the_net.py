@@ -170,7 +170,7 @@ def test_other_positions_have_an_engine_of_their_own_if_other_edges_are_long(rng
     assert not matrix_of(found.rings)[:, 17].any() and means[:, 17].any()
     for each in (found, expected):
         each.made = each.describe(points_of(far))
-        each.made += (each.normals(load_net(), *each.made),)
+        each.made += (load_net().normals(*each.made, each.graph),)
         each.fitted = each.fit.fit(points_of(far), each.made[2])
     assert_same_bits(found.made[1].faces, expected.made[1].faces)
     assert_same_bits(found.fitted, expected.fitted)
