@@ -8,6 +8,7 @@ from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import gaussian_filter
 
 from .sample_mesh import SampleMesh
 
@@ -109,7 +110,7 @@ def quantized(mesh: SampleMesh, rng: np.random.Generator) -> tuple[NDArray[np.fl
     if rng.random() < 0.4:
         grain = log_uniform(rng, 0.02, 0.15) * mesh.mean_edge * rng.normal(size=mesh.n_vertices)
         positions = positions + mesh.vertex_normals * grain[:, None]
-    axes = rng.random() < 0.5
+    axes = rng.random() < 0.35
     turned = positions @ (turn := mesh.rotation(rng))
     chosen = slice(None) if axes else slice(2, 3)
     turned[:, chosen] = np.round(turned[:, chosen] / step) * step
@@ -128,18 +129,33 @@ def voxels(mesh: SampleMesh, rng: np.random.Generator) -> tuple[NDArray[np.float
 
 def range_image(mesh: SampleMesh, rng: np.random.Generator) -> tuple[NDArray[np.float64], float]:
     """Errors along the line of sight: partly smooth, larger at grazing angles, sometimes in whole steps."""
-    view = mesh.rotation(rng)[:, 0]
+    view = mesh.rotation(rng)[:, 0] if mesh.sight is None else mesh.sight
     grazing = 1.0 / np.maximum(np.abs(mesh.vertex_normals @ view), 0.2)
     share = rng.uniform(0, 1)
-    grain = share * _wide(mesh, rng, int(rng.integers(1, 8)))
-    grain += np.sqrt(1 - share**2) * rng.normal(size=mesh.n_vertices)
-    sigma = log_uniform(rng, 0.03, 0.25) * mesh.mean_edge
+    wide, reach = _sensed(mesh, rng)
+    grain = share * wide + np.sqrt(1 - share**2) * rng.normal(size=mesh.n_vertices)
+    sigma = log_uniform(rng, 0.03, 0.25) * mesh.mean_edge * (1 + 0.3 * share * reach)
     depth = mesh.vertices @ view
     found = depth + sigma * grazing ** rng.uniform(0, 1) * grain
-    if rng.random() < 0.5:
+    if rng.random() < 0.4:
         step = log_uniform(rng, 0.3, 2.0) * sigma
         found = np.round(found / step) * step
-    return mesh.vertices + (found - depth)[:, None] * view, 1.0 if share > 0.6 else 0.0
+    return mesh.vertices + (found - depth)[:, None] * view, 1.0 if share > 0.6 and reach > 0.5 else 0.0
+
+
+def _sensed(mesh: SampleMesh, rng: np.random.Generator) -> tuple[NDArray[np.float64], float]:
+    """Return smooth noise of mean square 1, shape (N,), and over how many pixels it is smooth.
+
+    Stripes differ from each other where a laser sweeps: on a sensor's grid the two directions have their own reach.
+    """
+    if mesh.pixels is None:
+        n_averages = int(rng.integers(1, 12))
+        return _wide(mesh, rng, n_averages), float(np.sqrt(n_averages / 2))
+    reach = np.array([log_uniform(rng, 0.3, 4), log_uniform(rng, 0.3, 4)])
+    if rng.random() < 0.4:
+        reach[:] = reach[0]
+    image = gaussian_filter(rng.normal(size=mesh.pixels.max(axis=0) + 1), reach)
+    return _standard(image[tuple(mesh.pixels.T)]), float(np.sqrt(reach.prod()))
 
 
 def none(mesh: SampleMesh, rng: np.random.Generator) -> tuple[NDArray[np.float64], float]:
@@ -150,17 +166,20 @@ def none(mesh: SampleMesh, rng: np.random.Generator) -> tuple[NDArray[np.float64
 
 MIXTURE: dict[Draw, float] = {
     white: 0.21,
-    directions: 0.05,
+    directions: 0.07,
     correlated: 0.22,
     uneven: 0.1,
     impulsive: 0.08,
     spikes: 0.03,
-    quantized: 0.05,
+    quantized: 0.08,
     voxels: 0.15,
     range_image: 0.22,
     none: 0.05,
 }
 """How often each kind is drawn; voxels on meshes that have them."""
+
+SEEN = 6
+"""How much more often range images have the noise of range images."""
 
 
 def draw(mesh: SampleMesh, rng: np.random.Generator) -> tuple[NDArray[np.float64], float, str]:
@@ -169,6 +188,8 @@ def draw(mesh: SampleMesh, rng: np.random.Generator) -> tuple[NDArray[np.float64
     shares = np.array(list(MIXTURE.values()))
     if mesh.voxels is None:
         shares[kinds.index(voxels)] = 0
+    if mesh.pixels is not None:
+        shares[kinds.index(range_image)] *= SEEN
     kind = kinds[rng.choice(len(kinds), p=shares / shares.sum())]
     positions, width = kind(mesh, rng)
     return positions, width, kind.__name__

@@ -23,15 +23,27 @@ FACES_IN_CLUSTER = 700
 class SampleMesh:
     """A clean mesh in mean edge lengths, around its center.
 
-    `voxels`, shape (N, 3), are its positions with the errors of the volume that it comes from, or None.
+    `voxels`, shape (N, 3), are its positions with the errors of the volume that it comes from, or None. `pixels`,
+    shape (N, 2), are whole numbers: where the vertices of a range image lie on the sensor, or None; `sight` is
+    its line of sight.
     """
 
-    def __init__(self, surface: SurfaceMesh, voxels: NDArray[np.floating] | None = None) -> None:
+    def __init__(
+        self,
+        surface: SurfaceMesh,
+        voxels: NDArray[np.floating] | None = None,
+        grid: NDArray[np.floating] | None = None,
+    ) -> None:
         edge = mean_edge_length(surface)
         center = surface.vertices.mean(axis=0, dtype=np.float64)
         self.vertices = (surface.vertices - center) / edge
         self.surface = surface.with_vertices(self.vertices)
         self.voxels = None if voxels is None else (voxels - center) / edge
+        self.pixels, self.sight = None, None
+        if grid is not None:
+            counted = surface.vertices @ grid[:2].T
+            self.pixels = np.round(counted - counted.min(axis=0)).astype(np.int64)
+            self.sight = grid[2]
         self.connectivity = connect(self.surface)
         self.engine = FaceEngine(self.surface, self.connectivity, Blocks(1))
         self.mean_edge = 1.0
@@ -66,7 +78,8 @@ class SampleMesh:
                 else np.split(corners, offset[1:-1])
             )
             voxels = file["noisy"].astype(np.float64) if "noisy" in file else None
-            return cls(SurfaceMesh.from_faces(file["vertices"].astype(np.float64), faces), voxels)
+            grid = file["grid"] if "grid" in file else None
+            return cls(SurfaceMesh.from_faces(file["vertices"].astype(np.float64), faces), voxels, grid)
 
     @property
     def n_vertices(self) -> int:

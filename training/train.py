@@ -48,7 +48,7 @@ INSIDE_OUT = 0.35
 ONE_PASS, SOME = 0.25, 0.3
 """Up to this share of the time only some of the steps train the second pass: the first has to work before."""
 
-MOST_FACES = 20_000
+MOST_FACES = 21_000
 
 
 class Draw:

@@ -47,6 +47,7 @@ def make_shapes(out: Path, count: int, seed: int, first: int = 0, *, keep: bool 
                 corner_vertex=mesh.corner_vertex.astype(np.int32),
                 kind=kind,
                 **({} if mesh.noisy is None else {"noisy": mesh.noisy.astype(np.float32)}),
+                **({} if mesh.grid is None else {"grid": mesh.grid}),
             )
         part.replace(path)
         print(f"{index:04d} {kind} {mesh.n_faces} faces, {time.process_time() - start:.1f} s", flush=True)
@@ -56,7 +57,7 @@ def main() -> int:
     """Make the meshes asked for."""
     parser = argparse.ArgumentParser(prog="python -m training.shapes", description=__doc__)
     parser.add_argument("--out", type=Path, required=True, help="folder of the .npz files")
-    parser.add_argument("--count", type=int, default=1050, help="number of meshes")
+    parser.add_argument("--count", type=int, default=1250, help="number of meshes")
     parser.add_argument("--first", type=int, default=0, help="index of the first mesh")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--keep", action="store_true", help="leave files that exist")

@@ -14,8 +14,9 @@ from .organic import make_organic
 from .parts import make_part
 from .plates import make_plate
 from .quads import make_coarse_quads, make_quads
+from .scanned import make_scanned
 from .shells import make_shell
-from .sweeps import make_sweep
+from .sweeps import make_ball, make_sweep
 from .terrain import make_terrain
 from .uneven import make_uneven
 
@@ -47,6 +48,11 @@ COARSE_FAMILIES = {
     "marching": (make_marching, 0.5),
 }
 
+FIRST_SCANNED = 1050
+"""Number of the first range image: there surfaces are smooth and sampled as a sensor or a program does it."""
+
+SCANNED_FAMILIES = {"scanned": (make_scanned, 3.0), "ball": (make_ball, 1.0)}
+
 N_TRIES = 6
 LEAST_FACES, LEAST_COARSE = 3000, 350
 MOST_FACES = 26000
@@ -64,11 +70,13 @@ def family_of(index: int) -> str:
 
 
 def _families(index: int) -> dict:
+    if index >= FIRST_SCANNED:
+        return SCANNED_FAMILIES
     return FAMILIES if index < FIRST_COARSE else COARSE_FAMILIES
 
 
 def _target(rng, index: int) -> int:
-    if index >= FIRST_COARSE:
+    if FIRST_COARSE <= index < FIRST_SCANNED:
         return int(log_uniform(rng, 500, 4500))
     return int(log_uniform(rng, 6000, 14000) if chance(rng, 0.8) else log_uniform(rng, 4200, 22000))
 
@@ -119,7 +127,7 @@ def make(seed: int, index: int) -> tuple[Mesh, str]:
         try:
             mesh = _without_loose_vertices(_families(index)[kind][0](rng, _target(rng, index)))
             mesh = _finished(rng, mesh)
-            reason = problem(mesh, LEAST_FACES if index < FIRST_COARSE else LEAST_COARSE)
+            reason = problem(mesh, LEAST_COARSE if FIRST_COARSE <= index < FIRST_SCANNED else LEAST_FACES)
         except Exception as error:  # a tool that gives up on one shape must not stop the others
             reason = f"{type(error).__name__}: {error}"
         if not reason:
@@ -139,6 +147,10 @@ def _finished(rng, mesh: Mesh) -> Mesh:
     scale = log_uniform(rng, 0.01, 1000) / np.ptp(points, axis=0).max()
     if mesh.noisy is not None:
         mesh = mesh._replace(noisy=(mesh.noisy - (high + low) / 2) @ change * scale)
+    if mesh.grid is not None:
+        counting = mesh.grid[:2] @ np.linalg.inv(change).T / scale
+        sight = mesh.grid[2] @ change
+        mesh = mesh._replace(grid=np.vstack([counting, sight / np.linalg.norm(sight)]))
     mesh = mesh.moved(points * scale)
     if condition(mesh).border == 0 and volume(mesh) < 0:
         mesh = flipped(mesh)

@@ -13,13 +13,16 @@ from numpy.typing import NDArray
 class Mesh(NamedTuple):
     """A polygon mesh: positions (N, 3), where faces start (F + 1,), and their vertices (C,).
 
-    `noisy`, shape (N, 3), are positions with the errors of what made the mesh, if it made any.
+    `noisy`, shape (N, 3), are positions with the errors of what made the mesh, if it made any. `grid`, shape
+    (3, 3), belongs to a range image: scalar products with the first two rows count columns and rows of the
+    sensor, the third row is the line of sight.
     """
 
     vertices: NDArray[np.float64]
     face_offset: NDArray[np.int32]
     corner_vertex: NDArray[np.int32]
     noisy: NDArray[np.float64] | None = None
+    grid: NDArray[np.float64] | None = None
 
     @property
     def n_faces(self) -> int:
@@ -119,7 +122,7 @@ def select_faces(mesh: Mesh, keep) -> Mesh:
     offset = np.concatenate([[0], np.cumsum(sizes[keep])]).astype(np.int32)
     used, corner_vertex = np.unique(corners, return_inverse=True)
     noisy = None if mesh.noisy is None else mesh.noisy[used]
-    return Mesh(mesh.vertices[used], offset, corner_vertex.ravel().astype(np.int32), noisy)
+    return Mesh(mesh.vertices[used], offset, corner_vertex.ravel().astype(np.int32), noisy, mesh.grid)
 
 
 def joined(meshes) -> Mesh:

@@ -266,6 +266,24 @@ def sheet(rng, target: int) -> Mesh:
     return grid_mesh(rng, points.reshape(n_u, n_v, 3), False, False, style)
 
 
+def make_ball(rng, target: int) -> Mesh:
+    """Make a smooth body of equal triangles: a subdivided icosahedron, or an ellipsoid remeshed."""
+    from .blender import with_bmesh
+    from .resampling import isotropic
+
+    def icosphere(bmesh, work):
+        bmesh.ops.create_icosphere(work, subdivisions=6 if chance(rng, 0.75) else 5, radius=1)
+
+    ball = with_bmesh(from_faces(np.zeros((0, 3)), np.zeros((0, 3), int)), icosphere)
+    unit = ball.vertices / np.linalg.norm(ball.vertices, axis=1)[:, None]
+    wave = 0 if chance(rng, 0.3) else rng.uniform(0.03, 0.3)
+    radius = 1 + wave * octaves(rng, unit, log_uniform(rng, 0.8, 2.5), 1)
+    ball = ball.moved(unit * np.maximum(radius, 0.3)[:, None])
+    if chance(rng, 0.5):
+        return ball
+    return isotropic(ball.moved(ball.vertices * np.exp(rng.uniform(-0.7, 0.7, 3))), target, 180)
+
+
 def make_sweep(rng, target: int) -> Mesh:
     """Make one of the shapes of this file."""
     kinds = [tube, lathe, superellipsoid, harmonic_ball, sheet]
