@@ -146,7 +146,7 @@ def range_image(mesh: SampleMesh, rng: np.random.Generator) -> tuple[NDArray[np.
 def _sensed(mesh: SampleMesh, rng: np.random.Generator) -> tuple[NDArray[np.float64], float]:
     """Return smooth noise of mean square 1, shape (N,), and over how many pixels it is smooth.
 
-    Stripes differ from each other where a laser sweeps: on a sensor's grid the two directions have their own reach.
+    On a sensor's grid each direction has its own reach: where a laser sweeps, stripes differ from each other.
     """
     if mesh.pixels is None:
         n_averages = int(rng.integers(1, 12))

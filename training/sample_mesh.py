@@ -23,9 +23,9 @@ FACES_IN_CLUSTER = 700
 class SampleMesh:
     """A clean mesh in mean edge lengths, around its center.
 
-    `voxels`, shape (N, 3), are its positions with the errors of the volume that it comes from, or None. `pixels`,
-    shape (N, 2), are whole numbers: where the vertices of a range image lie on the sensor, or None; `sight` is
-    its line of sight.
+    `voxels`, shape (N, 3), are its positions with the errors of the volume that it comes from, or None.
+    `pixels`, shape (N, 2), are whole numbers: where the vertices of a range image lie on the sensor, or None;
+    `sight` is its line of sight.
     """
 
     def __init__(
@@ -78,7 +78,7 @@ class SampleMesh:
                 else np.split(corners, offset[1:-1])
             )
             voxels = file["noisy"].astype(np.float64) if "noisy" in file else None
-            grid = file["grid"] if "grid" in file else None
+            grid = file.get("grid")
             return cls(SurfaceMesh.from_faces(file["vertices"].astype(np.float64), faces), voxels, grid)
 
     @property
