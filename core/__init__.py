@@ -11,54 +11,54 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .denoising.denoise import denoise
-    from .denoising.preparation_cache import PreparationCache
-    from .denoising.prepared import Prepared, prepare
-    from .denoising.report import DenoiseReport, DenoiseResult
+    from .denoise import denoise
     from .equalizer import equalize
     from .frames import BANKS, FilterBank
+    from .learned.noise_field import NoiseBelief, NoiseField, noise_field
+    from .limits.region import Region
+    from .mesh.connectivity import Connectivity, connect
+    from .mesh.surface_mesh import SurfaceMesh
     from .metrics import Comparison, compare
     from .noise import NoiseEstimate, add_noise, estimate_noise
-    from .noise.field import NoiseBelief, NoiseField, noise_field
-    from .region.region import Region
+    from .preparation_cache import PreparationCache
+    from .prepared import Prepared, prepare
+    from .report import DenoiseReport, DenoiseResult
     from .settings import DEFAULT_PRESET, PRESETS, DenoiseSettings
     from .stencils import Stencil, make_stencil
-    from .surface.connectivity import Connectivity, connect
-    from .surface.surface_mesh import SurfaceMesh
     from .transform import FrameCoefficients, FrameTransform, adjoint, analyze, make_transform, synthesize
 
 _HOMES = {
     "BANKS": ".frames",
     "Comparison": ".metrics",
-    "Connectivity": ".surface.connectivity",
+    "Connectivity": ".mesh.connectivity",
     "DEFAULT_PRESET": ".settings",
-    "DenoiseReport": ".denoising.report",
-    "DenoiseResult": ".denoising.report",
+    "DenoiseReport": ".report",
+    "DenoiseResult": ".report",
     "DenoiseSettings": ".settings",
     "FilterBank": ".frames",
     "FrameCoefficients": ".transform",
     "FrameTransform": ".transform",
-    "NoiseBelief": ".noise.field",
+    "NoiseBelief": ".learned.noise_field",
     "NoiseEstimate": ".noise",
-    "NoiseField": ".noise.field",
+    "NoiseField": ".learned.noise_field",
     "PRESETS": ".settings",
-    "PreparationCache": ".denoising.preparation_cache",
-    "Prepared": ".denoising.prepared",
-    "Region": ".region.region",
+    "PreparationCache": ".preparation_cache",
+    "Prepared": ".prepared",
+    "Region": ".limits.region",
     "Stencil": ".stencils",
-    "SurfaceMesh": ".surface.surface_mesh",
+    "SurfaceMesh": ".mesh.surface_mesh",
     "add_noise": ".noise",
     "adjoint": ".transform",
     "analyze": ".transform",
     "compare": ".metrics",
-    "connect": ".surface.connectivity",
-    "denoise": ".denoising.denoise",
+    "connect": ".mesh.connectivity",
+    "denoise": ".denoise",
     "equalize": ".equalizer",
     "estimate_noise": ".noise",
     "make_stencil": ".stencils",
     "make_transform": ".transform",
-    "noise_field": ".noise.field",
-    "prepare": ".denoising.prepared",
+    "noise_field": ".learned.noise_field",
+    "prepare": ".prepared",
     "synthesize": ".transform",
 }
 

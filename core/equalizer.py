@@ -10,12 +10,12 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from .blocks import Blocks
-from .denoising.constraints import find_constraints
+from .limits.constraints import find_constraints
+from .mesh.checks import check_surface
+from .mesh.connectivity import Connectivity, connect
+from .mesh.normalization import displaced, normalize
+from .mesh.surface_mesh import SurfaceMesh
 from .settings import DenoiseSettings
-from .surface.checks import check_surface
-from .surface.connectivity import Connectivity, connect
-from .surface.normalization import displaced, normalize
-from .surface.surface_mesh import SurfaceMesh
 from .transform import choose_frame, make_transform
 
 HIGHEST_GAIN = 100.0

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .surface.geometry import face_normals, mean_edge_length
-from .surface.surface_mesh import SurfaceMesh
+from .mesh.geometry import face_normals, mean_edge_length
+from .mesh.surface_mesh import SurfaceMesh
 
 
 @dataclass(frozen=True)

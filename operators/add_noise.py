@@ -6,9 +6,10 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import FloatProperty, IntProperty
 
-from . import mesh_bridge, targets
-from .filled_reports import forget_estimate
-from .setting_values import as_typed
+from .mesh_io import mesh_bridge
+from .preview import targets
+from .properties.setting_values import as_typed
+from .reports.filled_reports import forget_estimate
 
 
 def add_noise_to_object(obj: bpy.types.Object, sigma: float, seed: int) -> None:

@@ -6,12 +6,13 @@ import bpy
 from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from . import band_storage, targets
-from .band_settings import StoreMixin
-from .bands import analyze_object, clear_object, megabytes_text
-from .setting_values import as_typed
-from .settings import FrameMixin, LevelsMixin
-from .viewport import hide_unused_colors
+from .bands.bands import analyze_object, clear_object, megabytes_text
+from .colors.viewport import hide_unused_colors
+from .mesh_io import band_storage
+from .preview import targets
+from .properties.band_settings import StoreMixin
+from .properties.setting_values import as_typed
+from .properties.settings import FrameMixin, LevelsMixin
 
 
 class OBJECT_OT_framelet_analyze(FrameMixin, LevelsMixin, StoreMixin, bpy.types.Operator):

@@ -6,7 +6,8 @@ import bpy
 from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from . import run_memory, targets
+from .preview import targets
+from .run import run_memory
 
 
 class OBJECT_OT_framelet_before_after(bpy.types.Operator):

@@ -9,9 +9,10 @@ from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import StringProperty
 
-from . import mesh_bridge, targets
-from .filled_reports import fill_comparison
-from .scene_units import length_text, surface_in_scene
+from .mesh_io import mesh_bridge
+from .preview import targets
+from .properties.scene_units import length_text, surface_in_scene
+from .reports.filled_reports import fill_comparison
 
 if TYPE_CHECKING:
     from ..core import Comparison

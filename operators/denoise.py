@@ -8,17 +8,17 @@ import bpy
 from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from . import targets
-from .current_preview import end_preview
-from .current_run import IS_RUNNING, current_run, set_current
 from .denoise_report import report_written
-from .denoise_run import DenoiseRun, State, begin_run
-from .region_settings import RegionMixin
-from .region_values import shown_region_names, to_region_options
-from .run_display import RunDisplay
-from .setting_values import PROPERTY_NAMES, fill, has_effect, is_replaced, to_settings
-from .settings import OutputMixin, SettingsMixin
-from .unused_values import unused_sentences
+from .preview import targets
+from .preview.current_preview import end_preview
+from .properties.region_settings import RegionMixin
+from .properties.region_values import shown_region_names, to_region_options
+from .properties.setting_values import PROPERTY_NAMES, fill, has_effect, is_replaced, to_settings
+from .properties.settings import OutputMixin, SettingsMixin
+from .properties.unused_values import unused_sentences
+from .run.current_run import IS_RUNNING, current_run, set_current
+from .run.denoise_run import DenoiseRun, State, begin_run
+from .run.run_display import RunDisplay
 
 TICK = 0.05
 """Seconds between two looks at a run."""

@@ -8,19 +8,19 @@ from typing import TYPE_CHECKING
 
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from .filled_reports import fill_estimate_of_run, fill_report
 from .heat_map import refresh_heat
-from .output import select_instead
-from .scene_units import LEAST_WIDTH, length_text, noise_text, range_text
-from .targets import names_text
+from .preview.targets import names_text
+from .properties.scene_units import LEAST_WIDTH, length_text, noise_text, range_text
+from .reports.filled_reports import fill_estimate_of_run, fill_report
+from .run.output import select_instead
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     import bpy
 
-    from .denoise_run import Written
-    from .report import FrameletReport
+    from .reports.report import FrameletReport
+    from .run.denoise_run import Written
 
 
 def report_written(

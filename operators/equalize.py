@@ -9,12 +9,13 @@ from collections.abc import Sequence
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from . import mesh_bridge, targets
-from .band_settings import EQUALIZER_NAMES, GAIN_NAMES, EqualizerMixin
-from .filled_reports import forget_estimate
-from .scene_units import displacement_in_scene, length_text
-from .setting_values import as_typed
-from .settings import FrameMixin
+from .mesh_io import mesh_bridge
+from .preview import targets
+from .properties.band_settings import EQUALIZER_NAMES, GAIN_NAMES, EqualizerMixin
+from .properties.scene_units import displacement_in_scene, length_text
+from .properties.setting_values import as_typed
+from .properties.settings import FrameMixin
+from .reports.filled_reports import forget_estimate
 
 
 def equalize_object(

@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, NamedTuple
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from . import mesh_bridge, targets
-from .filled_reports import fill_estimate
-from .scene_units import length_in_scene, noise_text
+from .mesh_io import mesh_bridge
+from .preview import targets
+from .properties.scene_units import length_in_scene, noise_text
+from .reports.filled_reports import fill_estimate
 
 if TYPE_CHECKING:
     from ..core import NoiseEstimate

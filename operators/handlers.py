@@ -7,11 +7,12 @@ from __future__ import annotations
 import bpy
 from bpy.app.handlers import persistent
 
-from . import current_preview, kept_original
-from .current_run import current_run, drop_current, stop_current, touch_current
-from .preparations import forget_preparations
-from .run_memory import forget_runs
-from .setting_values import replace_lost
+from .mesh_io import kept_original
+from .preview import current_preview
+from .properties.setting_values import replace_lost
+from .run.current_run import current_run, drop_current, stop_current, touch_current
+from .run.preparations import forget_preparations
+from .run.run_memory import forget_runs
 
 
 @persistent

@@ -12,16 +12,18 @@ import bpy
 from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from . import band_storage, run_memory, targets
-from .coloring import chosen_limit, color_objects
-from .filled_reports import fill_band_range
-from .heat_settings import LIMITS, HeatMixin, shown_heat_names
-from .heat_values import QUANTITIES, heat_values
-from .scene_units import value_texts
-from .viewport import hide_unused_colors, show_vertex_colors
+from .colors.coloring import chosen_limit, color_objects
+from .colors.heat_settings import LIMITS, HeatMixin, shown_heat_names
+from .colors.heat_values import QUANTITIES, heat_values
+from .colors.viewport import hide_unused_colors, show_vertex_colors
+from .mesh_io import band_storage
+from .preview import targets
+from .properties.scene_units import value_texts
+from .reports.filled_reports import fill_band_range
+from .run import run_memory
 
 if TYPE_CHECKING:
-    from .band_values import BandValues, ColorRange
+    from .bands.band_values import BandValues, ColorRange
 
 
 def show_heat(

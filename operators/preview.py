@@ -7,10 +7,10 @@ from __future__ import annotations
 import bpy
 from bpy.app.translations import pgettext_n as n_
 
-from . import targets
-from .current_preview import current_preview, end_preview, start_preview
-from .current_run import IS_RUNNING, current_run
 from .denoise_report import report_written
+from .preview import targets
+from .preview.current_preview import current_preview, end_preview, start_preview
+from .run.current_run import IS_RUNNING, current_run
 
 
 class OBJECT_OT_framelet_preview(bpy.types.Operator):

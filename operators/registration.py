@@ -5,28 +5,29 @@
 import bpy
 from bpy.utils import register_classes_factory
 
-from . import handlers, mesh_facts
+from . import handlers
 from .add_noise import OBJECT_OT_framelet_add_noise
 from .analyze import OBJECT_OT_framelet_analyze, OBJECT_OT_framelet_clear
-from .band_settings import FrameletBands, FrameletEqualizer
 from .before_after import OBJECT_OT_framelet_before_after
+from .colors.heat_settings import FrameletHeatMap
 from .command_line import blender_command
 from .compare import OBJECT_OT_framelet_compare
 from .denoise import OBJECT_OT_framelet_cancel, OBJECT_OT_framelet_denoise
 from .equalize import OBJECT_OT_framelet_equalize
 from .estimate_noise import OBJECT_OT_framelet_estimate_noise
 from .heat_map import OBJECT_OT_framelet_heat_map, OBJECT_OT_framelet_hide_colors
-from .heat_settings import FrameletHeatMap
-from .presets import OBJECT_OT_framelet_preset_add
+from .mesh_io import mesh_facts
 from .preview import OBJECT_OT_framelet_apply_preview, OBJECT_OT_framelet_preview
-from .report import (
+from .properties.band_settings import FrameletBands, FrameletEqualizer
+from .properties.presets import OBJECT_OT_framelet_preset_add
+from .properties.settings import FrameletSettings
+from .reports.report import (
     FrameletBandRange,
     FrameletComparison,
     FrameletEstimate,
     FrameletNoise,
     FrameletReport,
 )
-from .settings import FrameletSettings
 from .show_band import OBJECT_OT_framelet_show_band
 from .synthesize import OBJECT_OT_framelet_synthesize
 

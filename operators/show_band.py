@@ -7,13 +7,13 @@ from __future__ import annotations
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from . import targets
-from .band_settings import ShowMixin, shown_names
-from .band_values import BandChoice, choose_values
-from .coloring import chosen_limit, color_objects
-from .filled_reports import fill_band_range
-from .scene_units import length_text
-from .viewport import show_vertex_colors
+from .bands.band_values import BandChoice, choose_values
+from .colors.coloring import chosen_limit, color_objects
+from .colors.viewport import show_vertex_colors
+from .preview import targets
+from .properties.band_settings import ShowMixin, shown_names
+from .properties.scene_units import length_text
+from .reports.filled_reports import fill_band_range
 
 
 class OBJECT_OT_framelet_show_band(ShowMixin, bpy.types.Operator):

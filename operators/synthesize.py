@@ -5,10 +5,10 @@
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from . import targets
-from .bands import synthesize_object
-from .filled_reports import forget_estimate
-from .scene_units import displacement_in_scene, length_text
+from .bands.bands import synthesize_object
+from .preview import targets
+from .properties.scene_units import displacement_in_scene, length_text
+from .reports.filled_reports import forget_estimate
 
 
 class OBJECT_OT_framelet_synthesize(bpy.types.Operator):

@@ -8,7 +8,7 @@ import bpy
 # This module exists once bpy was imported.
 import bmesh
 from framelet.core import add_noise
-from framelet.operators import mesh_bridge
+from framelet.operators.mesh_io import mesh_bridge
 
 
 def noisy_monkey(name="Monkey", location=(0, 0, 0)):

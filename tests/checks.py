@@ -7,7 +7,7 @@ from dataclasses import fields
 import numpy as np
 from framelet.core import Region
 from framelet.core.frames import BANKS
-from framelet.core.surface.surface_mesh import SurfaceMesh
+from framelet.core.mesh.surface_mesh import SurfaceMesh
 
 AS_SOLVED = Region(repair_folds=False)
 """Leaves the result of a solver as it is, for comparisons with twins and for figures of the methods."""

@@ -6,8 +6,8 @@ from functools import cache
 
 import numpy as np
 from checks import lengths, read_only
-from framelet.core.surface.geometry import vertex_normals
-from framelet.core.surface.surface_mesh import SurfaceMesh
+from framelet.core.mesh.geometry import vertex_normals
+from framelet.core.mesh.surface_mesh import SurfaceMesh
 from meshes import faces_of, quad_torus, triangle_torus
 
 

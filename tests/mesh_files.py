@@ -3,7 +3,7 @@
 """Reads the development meshes: binary PLY and Wavefront OBJ, as far as those files use them."""
 
 import numpy as np
-from framelet.core.surface.surface_mesh import SurfaceMesh
+from framelet.core.mesh.surface_mesh import SurfaceMesh
 
 
 def mesh_files(folder, *kinds):

@@ -10,7 +10,7 @@ from itertools import pairwise
 
 import numpy as np
 from checks import read_only
-from framelet.core.surface.surface_mesh import SurfaceMesh
+from framelet.core.mesh.surface_mesh import SurfaceMesh
 
 
 @cache

@@ -3,8 +3,8 @@
 """What tests of regions share: presets of all methods, measures by rings and edges, meshes with creases."""
 
 import numpy as np
-from framelet.core.surface.geometry import face_normals
-from framelet.core.surface.surface_mesh import SurfaceMesh
+from framelet.core.mesh.geometry import face_normals
+from framelet.core.mesh.surface_mesh import SurfaceMesh
 from meshes import faces_of
 
 METHODS = ("TRI_2", "BILATERAL", "AUTO")

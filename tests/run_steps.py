@@ -6,9 +6,11 @@ import threading
 
 import bpy
 from framelet.core import PRESETS, denoise
-from framelet.operators import current_preview, current_run, kept_original
-from framelet.operators.denoise_run import begin_run
-from framelet.operators.setting_values import to_settings
+from framelet.operators.mesh_io import kept_original
+from framelet.operators.preview import current_preview
+from framelet.operators.properties.setting_values import to_settings
+from framelet.operators.run import current_run
+from framelet.operators.run.denoise_run import begin_run
 
 QUICK = PRESETS["POSITIONS"].settings
 SECONDS = 60

@@ -6,7 +6,7 @@ from functools import cache
 
 import numpy as np
 from checks import read_only
-from framelet.core.surface.surface_mesh import SurfaceMesh
+from framelet.core.mesh.surface_mesh import SurfaceMesh
 
 
 @cache

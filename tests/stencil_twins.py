@@ -6,7 +6,7 @@ from collections import defaultdict
 from functools import cache
 
 import numpy as np
-from framelet.core.surface.connectivity import connect
+from framelet.core.mesh.connectivity import connect
 from meshes import faces_of
 from twins import angle_cosine, fans
 

@@ -15,7 +15,7 @@ DRAWN = {"label": "*", "prop": "*", "menu": "*", "prop_search": "*", "operator":
 """Methods of layouts, and the context in which Blender looks up their argument `text`."""
 
 TABLES = {"draw_value": (1, 2), "draw_lengths": (2,)}
-"""Functions of `ui.layouts`, and which of their arguments are shown as labels."""
+"""Functions of `ui.panels.layouts`, and which of their arguments are shown as labels."""
 
 
 def messages():

@@ -12,9 +12,9 @@ from scipy.spatial import cKDTree
 
 from core.blocks import Blocks
 from core.learned.engine import FaceEngine
-from core.surface.connectivity import connect
-from core.surface.geometry import face_area_vectors, mean_edge_length, unit_vectors, vertex_normals
-from core.surface.surface_mesh import SurfaceMesh
+from core.mesh.connectivity import connect
+from core.mesh.geometry import face_area_vectors, mean_edge_length, unit_vectors, vertex_normals
+from core.mesh.surface_mesh import SurfaceMesh
 
 FACES_IN_CLUSTER = 700
 """Faces of a cluster: the loss is a mean of logarithms over clusters, so that each place counts alike."""

@@ -4,18 +4,9 @@
 
 from bpy.utils import register_classes_factory
 
-from . import (
-    band_panels,
-    legend,
-    menus,
-    output_panel,
-    panel,
-    preset_panel,
-    region_panel,
-    report_panels,
-    see_panel,
-    translations,
-)
+from . import menus, translations
+from .legend import legend
+from .panels import band_panels, output_panel, panel, preset_panel, region_panel, report_panels, see_panel
 
 # Subpanels are shown in this order.
 classes = (

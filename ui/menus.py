@@ -13,18 +13,23 @@ import bpy
 
 from ..operators.add_noise import OBJECT_OT_framelet_add_noise
 from ..operators.analyze import OBJECT_OT_framelet_analyze, OBJECT_OT_framelet_clear
-from ..operators.band_settings import EQUALIZER_NAMES, SHOW_NAMES
 from ..operators.before_after import OBJECT_OT_framelet_before_after
+from ..operators.colors.heat_settings import HEAT_NAMES
 from ..operators.compare import OBJECT_OT_framelet_compare
 from ..operators.denoise import OBJECT_OT_framelet_denoise
 from ..operators.equalize import OBJECT_OT_framelet_equalize
 from ..operators.estimate_noise import OBJECT_OT_framelet_estimate_noise
 from ..operators.heat_map import OBJECT_OT_framelet_heat_map, OBJECT_OT_framelet_hide_colors
-from ..operators.heat_settings import HEAT_NAMES
-from ..operators.setting_values import copy_frame_settings, copy_settings, copy_values, write_quietly
+from ..operators.properties.band_settings import EQUALIZER_NAMES, SHOW_NAMES
+from ..operators.properties.setting_values import (
+    copy_frame_settings,
+    copy_settings,
+    copy_values,
+    write_quietly,
+)
 from ..operators.show_band import OBJECT_OT_framelet_show_band
 from ..operators.synthesize import OBJECT_OT_framelet_synthesize
-from .see_panel import BUTTONS
+from .panels.see_panel import BUTTONS
 
 
 class VIEW3D_MT_framelet(bpy.types.Menu):

@@ -9,8 +9,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..surface.connectivity import Connectivity
-from ..surface.surface_mesh import SurfaceMesh
+from ..mesh.connectivity import Connectivity
+from ..mesh.surface_mesh import SurfaceMesh
 
 
 class Ragged(NamedTuple):

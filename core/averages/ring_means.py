@@ -13,9 +13,9 @@ from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
-from ..surface.connectivity import Connectivity
-from ..surface.locality import stable_order
-from ..surface.surface_mesh import SurfaceMesh
+from ..mesh.connectivity import Connectivity
+from ..mesh.locality import stable_order
+from ..mesh.surface_mesh import SurfaceMesh
 from .means import Means
 from .ragged import Ragged
 

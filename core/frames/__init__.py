@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from importlib import import_module
 
-from ..frame_catalog import FRAME_CATALOG
+from ..settings.frame_catalog import FRAME_CATALOG
 from .b_spline import b_spline
 from .filter_bank import FilterBank
 

@@ -13,8 +13,8 @@ from ..averages.means import Means
 from ..averages.ragged import Ragged, faces_of_vertices
 from ..averages.ring_means import RingMeans
 from ..blocks import Blocks
-from ..surface.connectivity import Connectivity
-from ..surface.surface_mesh import SurfaceMesh
+from ..mesh.connectivity import Connectivity
+from ..mesh.surface_mesh import SurfaceMesh
 from .face_graph import FaceGraph
 from .features import Features, find_features
 from .islands import faces_of_islands, find_islands

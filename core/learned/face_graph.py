@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
-from ..surface.connectivity import Connectivity
-from ..surface.surface_mesh import SurfaceMesh
+from ..mesh.connectivity import Connectivity
+from ..mesh.surface_mesh import SurfaceMesh
 
 FACES_AT_ONCE = 4096
 """Faces or pairs in a block, so that what a kernel holds of them stays in the cache."""

@@ -15,11 +15,11 @@ from numpy.typing import NDArray
 
 from ..averages.ring_means import RingMeans
 from ..blocks import Blocks
+from ..mesh.connectivity import Connectivity
+from ..mesh.distance_rings import Adjacency
+from ..mesh.surface_mesh import SurfaceMesh
 from ..noise.fits import fit_heights
 from ..noise.patches import find_patches, local_adjacency, spread_sample
-from ..surface.connectivity import Connectivity
-from ..surface.distance_rings import Adjacency
-from ..surface.surface_mesh import SurfaceMesh
 from .face_graph import FaceGraph, Polygons
 from .islands import connected
 from .scales import Scales

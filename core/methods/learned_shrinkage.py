@@ -18,17 +18,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
-from ..denoising.constraints import Constraints
-from ..denoising.report import Callback
 from ..learned.engine import FaceEngine
 from ..learned.features import Features
 from ..learned.net import REPEATS, load_net
+from ..learned.noise_field import NoiseBelief, find_belief
 from ..learned.scales import Scales
 from ..learned.stillness import clean_places, flat_vertices, hardly_moved
-from ..noise.field import NoiseBelief, find_belief
+from ..limits.constraints import Constraints
+from ..mesh.connectivity import Connectivity
+from ..mesh.surface_mesh import SurfaceMesh
+from ..report import Callback
 from ..settings import DenoiseSettings
-from ..surface.connectivity import Connectivity
-from ..surface.surface_mesh import SurfaceMesh
 
 WEAKEST = 0.25
 """Strength below which results are mixed with the input instead: nothing is learned of noise that weak."""

@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
-from ..surface.checks import check_surface
-from ..surface.connectivity import Connectivity, connect
-from ..surface.normalization import normalize
-from ..surface.surface_mesh import SurfaceMesh
+from ..mesh.checks import check_surface
+from ..mesh.connectivity import Connectivity, connect
+from ..mesh.normalization import normalize
+from ..mesh.surface_mesh import SurfaceMesh
 from .fits import Leftovers, fit_heights
 from .local_noise import (
     TOO_STEEP,

@@ -7,9 +7,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..surface.checks import check_surface
-from ..surface.geometry import vertex_normals
-from ..surface.surface_mesh import SurfaceMesh
+from ..mesh.checks import check_surface
+from ..mesh.geometry import vertex_normals
+from ..mesh.surface_mesh import SurfaceMesh
 
 PAPER_SIGMA = 0.2
 """Standard deviation in the paper's experiments, in mean edge lengths (section 4.2)."""

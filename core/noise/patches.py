@@ -9,9 +9,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..surface.connectivity import Connectivity
-from ..surface.distance_rings import LARGEST_CLIQUE, Adjacency, edge_adjacency, sorted_unique
-from ..surface.surface_mesh import SurfaceMesh
+from ..mesh.connectivity import Connectivity
+from ..mesh.distance_rings import LARGEST_CLIQUE, Adjacency, edge_adjacency, sorted_unique
+from ..mesh.surface_mesh import SurfaceMesh
 
 MOST_STEPS = 256
 """A patch does not grow where its next ring would be found over more steps than this."""

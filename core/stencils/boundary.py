@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..surface.connectivity import Connectivity
+from ..mesh.connectivity import Connectivity
 from .builder import Place, StencilBuilder
 from .members import Members
 

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from ..frames import FilterBank
 from ..frames.filter_bank import CELL_CORNERS
-from ..surface.connectivity import Connectivity
-from ..surface.half_edges import find_half_edges
-from ..surface.surface_mesh import SurfaceMesh
+from ..mesh.connectivity import Connectivity
+from ..mesh.half_edges import find_half_edges
+from ..mesh.surface_mesh import SurfaceMesh
 from .builder import StencilBuilder
 from .walks import Grid
 

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
-from ..surface.distance_rings import Adjacency, Ring, distance_rings
-from ..surface.locality import spatial_order
+from ..mesh.distance_rings import Adjacency, Ring, distance_rings
+from ..mesh.locality import spatial_order
 from .members import Members
 from .straight import TIE
 

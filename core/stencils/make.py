@@ -7,9 +7,9 @@ from __future__ import annotations
 from ..blocks import Blocks
 from ..frames import FilterBank
 from ..frames.box_spline import BOX_SPLINE_111
-from ..surface.connectivity import Connectivity
-from ..surface.distance_rings import edge_adjacency, face_adjacency
-from ..surface.surface_mesh import SurfaceMesh
+from ..mesh.connectivity import Connectivity
+from ..mesh.distance_rings import edge_adjacency, face_adjacency
+from ..mesh.surface_mesh import SurfaceMesh
 from .builder import StencilBuilder
 from .dilation import dilate
 from .members import one_ring_members, quad_members, triangle_members

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from ..surface.connectivity import Connectivity
+from ..mesh.connectivity import Connectivity
 from .builder import Place, StencilBuilder
 
 

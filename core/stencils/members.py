@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
-from ..surface.connectivity import Connectivity
-from ..surface.half_edges import find_half_edges
-from ..surface.surface_mesh import SurfaceMesh
+from ..mesh.connectivity import Connectivity
+from ..mesh.half_edges import find_half_edges
+from ..mesh.surface_mesh import SurfaceMesh
 
 
 @dataclass(frozen=True, eq=False)

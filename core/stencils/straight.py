@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
-from ..surface.geometry import coordinate_rows
+from ..mesh.geometry import coordinate_rows
 from .builder import Place, StencilBuilder
 from .mean import fill_mean
 from .members import Members

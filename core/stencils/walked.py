@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..frames import FilterBank
-from ..surface.connectivity import Connectivity
-from ..surface.surface_mesh import SurfaceMesh
+from ..mesh.connectivity import Connectivity
+from ..mesh.surface_mesh import SurfaceMesh
 from .builder import Place, StencilBuilder
 from .cells import fill_cells, find_cells
 from .quads import NEAR

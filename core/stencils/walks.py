@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..surface.connectivity import Connectivity
+from ..mesh.connectivity import Connectivity
 from .straight import HIGHEST_VALENCE, TIE
 
 Steps = NDArray[np.int64]

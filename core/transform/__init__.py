@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..frames import FilterBank
-from ..surface.surface_mesh import SurfaceMesh
+from ..mesh.surface_mesh import SurfaceMesh
 from .coefficients import FrameCoefficients
 from .frame_transform import FrameTransform
 from .make import choose_frame, make_transform

@@ -13,8 +13,8 @@ from numpy.typing import DTypeLike, NDArray
 
 from ..blocks import Blocks
 from ..frames.valence_masks import HarmonicBank, PairwiseBank
+from ..mesh.locality import stable_order
 from ..stencils.members import Members
-from ..surface.locality import stable_order
 from .level import Chunk, Points, Visit
 
 SLOTS_PER_CHUNK = 2**17

@@ -11,12 +11,12 @@ from ..blocks import Blocks
 from ..frames import BANKS, FilterBank
 from ..frames.valence_masks import FAMILIES
 from ..memory import give_back
+from ..mesh.connectivity import Connectivity, connect
+from ..mesh.distance_rings import distance_rings, edge_adjacency, face_adjacency
+from ..mesh.surface_mesh import SurfaceMesh
 from ..stencils import make_stencil
 from ..stencils.dilation import dilate
 from ..stencils.members import one_ring_members
-from ..surface.connectivity import Connectivity, connect
-from ..surface.distance_rings import distance_rings, edge_adjacency, face_adjacency
-from ..surface.surface_mesh import SurfaceMesh
 from .adaptive_level import AdaptiveLevel, Neighbors, ring_neighbors
 from .frame_transform import FrameTransform
 from .lattice_level import LatticeLevel

@@ -14,8 +14,8 @@ from checkout import ROOT, load_framelet
 load_framelet()
 
 from framelet.core import PRESETS, SurfaceMesh, add_noise, compare, denoise  # noqa: E402
-from framelet.operators import mesh_bridge  # noqa: E402
 from framelet.operators.command_line.blender_output import captured_output  # noqa: E402
+from framelet.operators.mesh_io import mesh_bridge  # noqa: E402
 from meshes import copy_with_vertices, make_monkey  # noqa: E402
 from picture import Column, View, render_picture  # noqa: E402
 

@@ -20,8 +20,8 @@ from checkout import load_framelet
 load_framelet()
 
 from framelet.core import PRESETS, Comparison, add_noise, compare, denoise  # noqa: E402
-from framelet.operators import mesh_bridge  # noqa: E402
 from framelet.operators.command_line.blender_output import captured_output  # noqa: E402
+from framelet.operators.mesh_io import mesh_bridge  # noqa: E402
 from meshes import copy_with_vertices, make_monkey, write_ply  # noqa: E402
 from picture import Column, render_picture  # noqa: E402
 

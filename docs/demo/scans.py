@@ -23,8 +23,8 @@ from mathutils import Euler, Vector
 load_framelet()
 
 from framelet.core import PRESETS, denoise  # noqa: E402
-from framelet.operators import mesh_bridge  # noqa: E402
 from framelet.operators.command_line.blender_output import captured_output  # noqa: E402
+from framelet.operators.mesh_io import mesh_bridge  # noqa: E402
 from meshes import copy_with_vertices  # noqa: E402
 from picture import DIRECTION, Column, View, render_picture  # noqa: E402
 

@@ -14,7 +14,7 @@ from dataclasses import Field, fields
 from typing import Any
 
 from ...core.settings import DEFAULT_PRESET, METHODS, PRESETS, DenoiseSettings, SettingInfo
-from ..setting_values import has_effect, is_replaced
+from ..properties.setting_values import has_effect, is_replaced
 from .messages import USAGE_ERROR, CommandError
 
 LONGEST_LIST = 60

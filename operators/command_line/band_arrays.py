@@ -60,9 +60,9 @@ def band_arrays(surface: SurfaceMesh, settings: DenoiseSettings, max_megabytes: 
 
     from ...core import BANKS, connect, make_transform
     from ...core.blocks import Blocks
+    from ...core.mesh.checks import check_surface
     from ...core.stencils.cells import find_cells
-    from ...core.surface.checks import check_surface
-    from ..mesh_facts import find_facts, is_on_cells, resolve_frame, stored_bytes
+    from ..mesh_io.mesh_facts import find_facts, is_on_cells, resolve_frame, stored_bytes
 
     check_surface(surface)
     facts = find_facts(surface)

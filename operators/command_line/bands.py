@@ -109,7 +109,7 @@ def _analyze(obj: bpy.types.Object, settings: DenoiseSettings, max_megabytes: fl
     """Return the arrays of an object's mesh."""
     import numpy as np
 
-    from ..mesh_bridge import read_surface, refusal
+    from ..mesh_io.mesh_bridge import read_surface, refusal
 
     reason = refusal(obj)
     if reason is not None:

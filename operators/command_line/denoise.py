@@ -8,10 +8,10 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ...core.region_options import RegionOptions
 from ...core.settings import DenoiseSettings
-from ..output_choices import IN_PLACE, OUTPUTS
-from ..scene_units import LEAST_WIDTH
+from ..properties.output_choices import IN_PLACE, OUTPUTS
+from ..properties.region_options import RegionOptions
+from ..properties.scene_units import LEAST_WIDTH
 from .arguments import (
     HelpFormatter,
     add_setting_options,
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     import bpy
 
     from ...core import NoiseBelief, NoiseEstimate
-    from ...core.denoising.report import DenoiseReport
+    from ...core.report import DenoiseReport
     from .importing import Surfaces
     from .mesh_work import Outcome
 
@@ -144,7 +144,7 @@ def _denoise(
     messages: Messages,
 ) -> Outcome:
     """Denoise each mesh and say what was done."""
-    from ..denoise_object import denoise_object
+    from ..run.denoise_object import denoise_object
 
     def work(obj: bpy.types.Object) -> DenoiseReport:
         with messages.progress(f"Denoising {obj.name}") as callback:

@@ -10,7 +10,7 @@ from typing import Any
 
 import bpy
 
-from ..mesh_bridge import read_surface
+from ..mesh_io.mesh_bridge import read_surface
 from . import obj_text, ply_attributes
 from .blender_output import captured_output
 from .file_types import BLEND, file_type

@@ -8,8 +8,8 @@ import argparse
 from collections.abc import Callable
 from dataclasses import Field, fields
 
-from ...core.region_options import RegionOptions
-from ...core.setting_info import SettingInfo
+from ...core.settings.setting_info import SettingInfo
+from ..properties.region_options import RegionOptions
 from .messages import USAGE_ERROR, CommandError
 
 

@@ -11,10 +11,10 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from ...core.denoising.report import DenoiseReport
-from ...core.noise.field import NoiseBelief
-from ...core.region_options import RegionOptions
+from ...core.learned.noise_field import NoiseBelief
+from ...core.report import DenoiseReport
 from ...core.settings import DenoiseSettings
+from ..properties.region_options import RegionOptions
 from .version import blender_version, framelet_version
 
 

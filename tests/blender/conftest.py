@@ -92,7 +92,8 @@ def settings(empty_scene):
 @pytest.fixture
 def no_thread_stays(empty_scene):
     """Stop the run and the preview at the end, and fail if one of their threads goes on."""
-    from framelet.operators import current_preview, current_run
+    from framelet.operators.preview import current_preview
+    from framelet.operators.run import current_run
     from run_steps import framelet_threads
 
     yield
@@ -104,7 +105,7 @@ def no_thread_stays(empty_scene):
 @pytest.fixture
 def gate(monkeypatch):
     """Let the thread of a run wait before the solver until it is opened, or the run is stopped."""
-    from framelet.operators import denoise_run
+    from framelet.operators.run import denoise_run
 
     opened, original = threading.Event(), denoise_run.compute
 

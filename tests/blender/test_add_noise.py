@@ -10,7 +10,7 @@ import pytest
 # This module exists once bpy was imported.
 import bmesh
 from framelet.core import add_noise
-from framelet.operators import mesh_bridge
+from framelet.operators.mesh_io import mesh_bridge
 
 
 @pytest.fixture

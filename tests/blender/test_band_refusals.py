@@ -8,7 +8,7 @@ import bpy
 import meshes
 import numpy as np
 import pytest
-from framelet.operators import mesh_bridge
+from framelet.operators.mesh_io import mesh_bridge
 
 
 def read(obj):

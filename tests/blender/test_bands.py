@@ -7,12 +7,12 @@ import meshes
 import numpy as np
 import pytest
 from framelet.core import BANKS, SurfaceMesh, connect, make_transform
-from framelet.core.frame_catalog import FRAME_CATALOG
+from framelet.core.mesh.geometry import mean_edge_length
+from framelet.core.settings.frame_catalog import FRAME_CATALOG
 from framelet.core.stencils.cells import find_cells
-from framelet.core.surface.geometry import mean_edge_length
 from framelet.core.transform import choose_frame
-from framelet.operators import band_storage, mesh_bridge, mesh_facts
-from framelet.operators.bands import analyze_object, synthesize_object
+from framelet.operators.bands.bands import analyze_object, synthesize_object
+from framelet.operators.mesh_io import band_storage, mesh_bridge, mesh_facts
 
 SHAPES = {
     "Triangles": lambda: meshes.flipped(meshes.triangle_torus()),

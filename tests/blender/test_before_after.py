@@ -7,8 +7,9 @@ import meshes
 import numpy as np
 import pytest
 from checks import assert_same_bits
-from framelet.operators import mesh_bridge, run_memory
 from framelet.operators.before_after import OBJECT_OT_framelet_before_after as Operator
+from framelet.operators.mesh_io import mesh_bridge
+from framelet.operators.run import run_memory
 
 
 @pytest.fixture(autouse=True)

@@ -4,8 +4,8 @@
 
 import numpy as np
 import pytest
-from framelet.operators import colormaps
-from framelet.operators.colormaps import DIVERGING, SEQUENTIAL, map_colors
+from framelet.operators.colors import colormaps
+from framelet.operators.colors.colormaps import DIVERGING, SEQUENTIAL, map_colors
 
 LINEAR_TO_CONES = np.array(
     [

@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 import pytest
 from framelet.core import compare
-from framelet.operators import mesh_bridge
+from framelet.operators.mesh_io import mesh_bridge
 
 
 @pytest.fixture

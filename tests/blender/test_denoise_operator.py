@@ -11,8 +11,8 @@ import pytest
 import bmesh
 from blender_objects import noisy_monkey, read, select_only
 from framelet.core import DEFAULT_PRESET, PRESETS, DenoiseSettings, denoise
-from framelet.operators import mesh_bridge
-from framelet.operators.denoise_object import denoise_object
+from framelet.operators.mesh_io import mesh_bridge
+from framelet.operators.run.denoise_object import denoise_object
 
 # A quick algorithm, for what all of them have in common.
 QUICK = "POSITIONS"

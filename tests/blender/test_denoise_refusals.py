@@ -6,7 +6,7 @@ import bpy
 import pytest
 from blender_objects import noisy_monkey, read, select_only
 from framelet.core import DEFAULT_PRESET, PRESETS, denoise
-from framelet.operators import mesh_bridge
+from framelet.operators.mesh_io import mesh_bridge
 
 
 def last_report():

@@ -11,11 +11,12 @@ import numpy as np
 import pytest
 from blender_objects import noisy_monkey, read, select_only
 from framelet.core import PRESETS, NoiseBelief, denoise, estimate_noise
-from framelet.operators import denoise_report, mesh_bridge
-from framelet.operators.denoise_job import MeasuredReport
-from framelet.operators.filled_reports import fill_report
-from framelet.operators.report import BeliefMixin
-from framelet.operators.scene_units import range_text
+from framelet.operators import denoise_report
+from framelet.operators.mesh_io import mesh_bridge
+from framelet.operators.properties.scene_units import range_text
+from framelet.operators.reports.filled_reports import fill_report
+from framelet.operators.reports.report import BeliefMixin
+from framelet.operators.run.denoise_job import MeasuredReport
 
 
 def last_report():

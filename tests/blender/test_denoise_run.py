@@ -11,10 +11,11 @@ import pytest
 import bmesh
 from blender_objects import noisy_monkey, read
 from framelet.core import PRESETS
-from framelet.operators import current_run, denoise_job, denoise_run, mesh_bridge, preparations
-from framelet.operators.denoise_object import denoise_object
-from framelet.operators.denoise_run import State, begin_run
-from framelet.operators.run_display import progress_text, status_text
+from framelet.operators.mesh_io import mesh_bridge
+from framelet.operators.run import current_run, denoise_job, denoise_run, preparations
+from framelet.operators.run.denoise_object import denoise_object
+from framelet.operators.run.denoise_run import State, begin_run
+from framelet.operators.run.run_display import progress_text, status_text
 from run_steps import QUICK, SECONDS, start, until_done
 
 pytestmark = pytest.mark.usefixtures("no_thread_stays")

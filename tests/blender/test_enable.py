@@ -10,10 +10,10 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent.parent
 ALLOWED = {
     "core",
-    "core.choices",
-    "core.frame_catalog",
-    "core.region_options",
-    "core.setting_info",
+    "core.settings.choices",
+    "core.settings.frame_catalog",
+    "operators.properties.region_options",
+    "core.settings.setting_info",
     "core.settings",
 }
 PROGRAM = """

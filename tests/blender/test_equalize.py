@@ -12,9 +12,9 @@ import pytest
 import bmesh
 from blender_objects import noisy_monkey, read
 from framelet.core import SurfaceMesh, connect, equalize, make_transform
-from framelet.operators import mesh_bridge
-from framelet.operators.band_settings import GAIN_NAMES
 from framelet.operators.equalize import equalize_object
+from framelet.operators.mesh_io import mesh_bridge
+from framelet.operators.properties.band_settings import GAIN_NAMES
 
 
 def add_group(obj, name="Group"):

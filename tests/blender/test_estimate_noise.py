@@ -8,9 +8,9 @@ import bpy
 import numpy as np
 import pytest
 from framelet.core import PRESETS, add_noise, denoise, estimate_noise
-from framelet.operators import mesh_bridge
 from framelet.operators.estimate_noise import estimate_object_noise
-from framelet.operators.scene_units import length_in_scene
+from framelet.operators.mesh_io import mesh_bridge
+from framelet.operators.properties.scene_units import length_in_scene
 
 
 @pytest.fixture

@@ -7,8 +7,9 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
-from framelet.operators import face_offsets, mesh_bridge
+from framelet.operators import face_offsets
 from framelet.operators.face_offsets import read_face_starts
+from framelet.operators.mesh_io import mesh_bridge
 
 SIZES = (3, 4, 5, 3, 3, 8, 4)
 

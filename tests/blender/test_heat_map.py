@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 from framelet.core import noise_field
 from framelet.core.metrics import compare
-from framelet.operators import band_storage, mesh_bridge, run_memory
-from framelet.operators.colormaps import DIVERGING, SEQUENTIAL, map_colors
-from framelet.operators.heat_values import heat_values
+from framelet.operators.colors.colormaps import DIVERGING, SEQUENTIAL, map_colors
+from framelet.operators.colors.heat_values import heat_values
+from framelet.operators.mesh_io import band_storage, mesh_bridge
+from framelet.operators.run import run_memory
 
 
 @pytest.fixture(autouse=True)
@@ -80,7 +81,7 @@ def test_a_sphere_that_grows_is_red_and_one_that_shrinks_is_blue():
 
 
 def test_the_normals_are_those_of_the_result(torus):
-    from framelet.core.surface.geometry import vertex_normals
+    from framelet.core.mesh.geometry import vertex_normals
 
     run = last_run(torus)
     normals = vertex_normals(mesh_bridge.read_surface(torus).with_vertices(run.after.astype(np.float64)))

@@ -5,8 +5,8 @@
 import threading
 
 import pytest
-from framelet.operators import latest
-from framelet.operators.latest import Latest
+from framelet.operators.preview import latest
+from framelet.operators.preview.latest import Latest
 
 SECONDS = 30
 

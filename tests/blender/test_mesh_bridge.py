@@ -9,7 +9,7 @@ import pytest
 # isort: split
 # This module exists once bpy was imported.
 import bmesh
-from framelet.operators import mesh_bridge
+from framelet.operators.mesh_io import mesh_bridge
 
 
 def sphere(name="Sphere"):

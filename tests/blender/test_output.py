@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from blender_objects import noisy_monkey, select_only
 from framelet.core import PRESETS, add_noise, denoise
-from framelet.operators import mesh_bridge
-from framelet.operators.denoise_object import denoise_object
+from framelet.operators.mesh_io import mesh_bridge
+from framelet.operators.run.denoise_object import denoise_object
 
 QUICK = "POSITIONS"
 SETTINGS = PRESETS[QUICK].settings

@@ -9,9 +9,9 @@ import framelet.ui
 import pytest
 from drawing import draw
 from framelet.core.settings import PRESETS
-from framelet.operators import setting_values
-from framelet.ui import panel, region_panel, report_panels
-from framelet.ui.layouts import FrameletPanel
+from framelet.operators.properties import setting_values
+from framelet.ui.panels import panel, region_panel, report_panels
+from framelet.ui.panels.layouts import FrameletPanel
 
 
 def test_panels_are_registered_in_one_tab():

@@ -8,8 +8,9 @@ import bpy
 import meshes
 import pytest
 from drawing import draw
-from framelet.operators import band_settings, mesh_facts
-from framelet.ui import band_panels, panel, see_panel
+from framelet.operators.mesh_io import mesh_facts
+from framelet.operators.properties import band_settings
+from framelet.ui.panels import band_panels, panel, see_panel
 
 
 def test_bands_before_and_after():

@@ -6,7 +6,9 @@ import bpy
 import meshes
 import pytest
 import translatable
-from framelet.operators import current_preview, current_run, registration, run_memory
+from framelet.operators import registration
+from framelet.operators.preview import current_preview
+from framelet.operators.run import current_run, run_memory
 
 OBJECT = "Switch to Object Mode"
 OBJECT_OR_EDIT = "Switch to Object Mode, or to Edit Mode of a mesh"

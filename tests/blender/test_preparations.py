@@ -9,11 +9,11 @@ import pytest
 # isort: split
 # This module exists once bpy was imported.
 import bmesh
-from framelet.core import add_noise, denoise
-from framelet.core.denoising import preparation_cache
+from framelet.core import add_noise, denoise, preparation_cache
 from framelet.core.settings import PRESETS
-from framelet.operators import mesh_bridge, preparations
-from framelet.operators.denoise_object import denoise_object
+from framelet.operators.mesh_io import mesh_bridge
+from framelet.operators.run import preparations
+from framelet.operators.run.denoise_object import denoise_object
 
 TRI_2 = PRESETS["TRI_2"].settings
 

@@ -8,8 +8,8 @@ import bpy
 import pytest
 from drawing import draw
 from framelet.core.settings import PRESETS
-from framelet.operators import presets, setting_values
-from framelet.ui import panel, preset_panel
+from framelet.operators.properties import presets, setting_values
+from framelet.ui.panels import panel, preset_panel
 
 
 @pytest.fixture

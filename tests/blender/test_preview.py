@@ -8,8 +8,9 @@ import bpy
 import numpy as np
 import pytest
 from blender_objects import noisy_monkey
-from framelet.operators import current_preview, mesh_bridge, preview_session
-from framelet.operators.mesh_bridge import read_positions
+from framelet.operators.mesh_io import mesh_bridge
+from framelet.operators.mesh_io.mesh_bridge import read_positions
+from framelet.operators.preview import current_preview, preview_session
 from meshes import noisy, triangle_grid
 from run_steps import assert_clean, expected_for, same, settle, turn_on
 
@@ -51,7 +52,7 @@ def test_all_methods(preset, settings):
 
 @pytest.mark.parametrize(("preset", "name"), [("POSITIONS", "lambda_"), ("AUTO", "strength")])
 def test_a_mesh_is_prepared_once(settings, monkeypatch, preset, name):
-    from framelet.core.denoising import preparation_cache
+    from framelet.core import preparation_cache
 
     made, original = [], preparation_cache.prepare_again
 

@@ -11,8 +11,9 @@ import pytest
 import bmesh
 from blender_objects import noisy_monkey
 from framelet.core import PRESETS, denoise
-from framelet.operators import current_preview, kept_original, mesh_bridge
-from framelet.operators.mesh_bridge import read_positions
+from framelet.operators.mesh_io import kept_original, mesh_bridge
+from framelet.operators.mesh_io.mesh_bridge import read_positions
+from framelet.operators.preview import current_preview
 from run_steps import assert_clean, expected_for, same, settle, turn_on
 
 pytestmark = pytest.mark.usefixtures("no_thread_stays")

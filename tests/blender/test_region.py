@@ -14,10 +14,10 @@ import bmesh
 from blender_objects import edit, read
 from checks import assert_same_bits, lengths
 from framelet.core import PRESETS, Region, denoise
-from framelet.core.region_options import RegionOptions
-from framelet.operators import mesh_bridge
-from framelet.operators.denoise_object import denoise_object
-from framelet.operators.region_values import REGION_NAMES, shown_region_names, to_region_options
+from framelet.operators.mesh_io import mesh_bridge
+from framelet.operators.properties.region_options import RegionOptions
+from framelet.operators.properties.region_values import REGION_NAMES, shown_region_names, to_region_options
+from framelet.operators.run.denoise_object import denoise_object
 from meshes import noisy, triangle_torus
 from region_cases import exploded
 
@@ -191,7 +191,7 @@ def test_other_options_reach_core(torus):
 
 
 def test_the_button_hands_over_the_region(torus):
-    from framelet.operators.setting_values import copy_settings
+    from framelet.operators.properties.setting_values import copy_settings
 
     settings = bpy.context.scene.framelet
     settings.preset, settings.limit, settings.max_edges = "TRI_2", "EDGES", 0.07

@@ -12,9 +12,9 @@ import bmesh
 from blender_objects import edit, read
 from checks import lengths
 from framelet.core import PRESETS, Region, SurfaceMesh, denoise
-from framelet.core.region_options import RegionOptions
-from framelet.operators import mesh_bridge
-from framelet.operators.region_bridge import read_region
+from framelet.operators.mesh_io import mesh_bridge
+from framelet.operators.mesh_io.region_bridge import read_region
+from framelet.operators.properties.region_options import RegionOptions
 from meshes import noisy
 from region_cases import box
 

@@ -5,8 +5,9 @@
 import bpy
 import pytest
 from blender_objects import noisy_monkey, read
-from framelet.operators import current_run, mesh_bridge, preparations
-from framelet.operators.denoise_run import State
+from framelet.operators.mesh_io import mesh_bridge
+from framelet.operators.run import current_run, preparations
+from framelet.operators.run.denoise_run import State
 from run_steps import framelet_threads, start, until_done
 
 pytestmark = pytest.mark.usefixtures("no_thread_stays")

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from blender_objects import noisy_monkey
 from framelet.core.settings import PRESETS
-from framelet.operators import mesh_bridge
-from framelet.operators.denoise_job import compute
-from framelet.operators.denoise_object import read_job
-from framelet.operators.scene_units import displacement_by
+from framelet.operators.mesh_io import mesh_bridge
+from framelet.operators.properties.scene_units import displacement_by
+from framelet.operators.run.denoise_job import compute
+from framelet.operators.run.denoise_object import read_job
 from mathutils import Matrix
 
 LINEAR = np.array([[2.0, 0.5, 0.0], [0.0, -1.0, 0.25], [0.1, 0.0, 3.0]])

@@ -7,8 +7,8 @@ from dataclasses import fields
 import bpy
 import pytest
 from framelet.core.settings import DEFAULT_PRESET, PRESETS, DenoiseSettings
-from framelet.operators import setting_values as module
-from framelet.operators.settings import FrameletSettings
+from framelet.operators.properties import setting_values as module
+from framelet.operators.properties.settings import FrameletSettings
 
 FIELDS = {item.name: item for item in fields(DenoiseSettings)}
 DEFAULTS = PRESETS[DEFAULT_PRESET].settings

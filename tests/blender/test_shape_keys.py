@@ -5,7 +5,7 @@
 import bpy
 import numpy as np
 import pytest
-from framelet.operators import mesh_bridge
+from framelet.operators.mesh_io import mesh_bridge
 
 
 def sphere(name="Sphere"):

@@ -8,11 +8,11 @@ import bpy
 import meshes
 import numpy as np
 import pytest
+from framelet.core.mesh.geometry import vertex_normals
 from framelet.core.stencils.cells import find_cells
-from framelet.core.surface.geometry import vertex_normals
-from framelet.operators import mesh_bridge
-from framelet.operators.band_values import BandChoice, choose_values, find_limit
-from framelet.operators.colormaps import DIVERGING, SEQUENTIAL, map_colors
+from framelet.operators.bands.bands.band_values import BandChoice, choose_values, find_limit
+from framelet.operators.colors.colormaps import DIVERGING, SEQUENTIAL, map_colors
+from framelet.operators.mesh_io import mesh_bridge
 
 
 @pytest.fixture

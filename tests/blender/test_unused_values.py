@@ -5,8 +5,8 @@
 import bpy
 import pytest
 from framelet.core.settings import PRESETS, DenoiseSettings
-from framelet.operators.region_values import REGION_NAMES
-from framelet.operators.unused_values import REGION_NEEDS
+from framelet.operators.properties.region_values import REGION_NAMES
+from framelet.operators.properties.unused_values import REGION_NEEDS
 from meshes import triangle_torus
 
 
@@ -104,7 +104,7 @@ def test_nothing_but_a_warning_comes_of_it(make_object):
 def test_every_option_that_needs_another_has_its_words():
     from types import SimpleNamespace
 
-    from framelet.operators.region_values import shown_region_names
+    from framelet.operators.properties.region_values import shown_region_names
 
     plain = SimpleNamespace(vertex_group="", limit="NONE", weld=False)
     assert set(REGION_NEEDS) == set(REGION_NAMES) - set(shown_region_names(plain))

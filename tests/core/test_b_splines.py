@@ -9,7 +9,7 @@ import pytest
 from framelet.core import BANKS, FilterBank, make_stencil, make_transform
 from framelet.core.frames.b_spline import HIGHEST_ORDER, b_spline
 from framelet.core.frames.filter_bank import unitary_extension_defects
-from framelet.core.surface.connectivity import connect
+from framelet.core.mesh.connectivity import connect
 from meshes import flipped, mixed_sheet, noisy, quad_torus, triangle_grid, triangle_torus, union
 
 EXACT = 1e-13

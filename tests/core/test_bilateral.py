@@ -9,10 +9,10 @@ import pytest
 from checks import AS_SOLVED, edge_length, lengths, random_rotation
 from framelet.core import DenoiseSettings, compare, denoise
 from framelet.core.blocks import Blocks
-from framelet.core.denoising.bilateral import bilateral_filter
-from framelet.core.denoising.constraints import find_constraints
-from framelet.core.surface.connectivity import connect
-from framelet.core.surface.neighborhoods import vertices_within
+from framelet.core.limits.constraints import find_constraints
+from framelet.core.mesh.connectivity import connect
+from framelet.core.mesh.neighborhoods import vertices_within
+from framelet.core.methods.bilateral import bilateral_filter
 from meshes import MESHES, faces_of, flipped, mixed_sheet, noisy, soup, triangle_torus, union
 from twins import newell
 from twins import vertices_within as within

@@ -11,7 +11,7 @@ import pytest
 from checks import TRIANGLE_PRESETS, assert_same_bits
 from framelet.core import PRESETS, SurfaceMesh, add_noise, compare, connect, denoise, make_stencil
 from framelet.core.blocks import BLOCK_SIZE, Blocks, Stopped, available_cores
-from framelet.core.surface.geometry import mean_edge_length
+from framelet.core.mesh.geometry import mean_edge_length
 from meshes import flipped, mixed_sheet, noisy, pyramid, triangle_grid, triangle_torus, turned_over, union
 
 SMALL = 2048

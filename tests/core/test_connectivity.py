@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from checks import read_only
 from framelet.core.blocks import Blocks
-from framelet.core.surface.connectivity import connect
-from framelet.core.surface.surface_mesh import SurfaceMesh
+from framelet.core.mesh.connectivity import connect
+from framelet.core.mesh.surface_mesh import SurfaceMesh
 from meshes import MESHES, bow_tie, clean_soup, faces_of, pyramid, soup, triangle_torus, turned_over, union
 from twins import fans
 

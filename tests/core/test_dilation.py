@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from framelet.core import BANKS, SurfaceMesh, connect, make_stencil
 from framelet.core.blocks import Blocks
+from framelet.core.mesh import distance_rings as distance_rings_module
+from framelet.core.mesh.distance_rings import distance_rings, edge_adjacency, face_adjacency
 from framelet.core.stencils import dilation
 from framelet.core.stencils.dilation import dilate
 from framelet.core.stencils.members import one_ring_members, quad_members, triangle_members
-from framelet.core.surface import distance_rings as distance_rings_module
-from framelet.core.surface.distance_rings import distance_rings, edge_adjacency, face_adjacency
 from meshes import MESHES, flipped, noisy, quad_grid, quad_torus, triangle_grid, triangle_torus, union
 from stars import star
 from stencil_twins import MeshTwin, dilated, distances, neighbors_by

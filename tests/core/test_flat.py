@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from checks import TRIANGLE_PRESETS, lengths, random_rotation
 from framelet.core import PRESETS, denoise
-from framelet.core.surface.surface_mesh import SurfaceMesh
+from framelet.core.mesh.surface_mesh import SurfaceMesh
 from mesh_files import read_mesh
 from meshes import flipped, pyramid, quad_grid, triangle_grid
 

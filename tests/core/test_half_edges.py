@@ -5,8 +5,8 @@
 import numpy as np
 import pytest
 from framelet.core.blocks import Blocks
-from framelet.core.surface.half_edges import find_half_edges, last_corners, shifted
-from framelet.core.surface.surface_mesh import SurfaceMesh
+from framelet.core.mesh.half_edges import find_half_edges, last_corners, shifted
+from framelet.core.mesh.surface_mesh import SurfaceMesh
 from meshes import MESHES, faces_of
 
 SPOILED = {

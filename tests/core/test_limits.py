@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from checks import AS_SOLVED, TRIANGLE_PRESETS, assert_same_bits, lengths, read_only
 from framelet.core import PRESETS, denoise
-from framelet.core.surface.connectivity import connect
-from framelet.core.surface.geometry import vertex_normals
-from framelet.core.surface.surface_mesh import SurfaceMesh
+from framelet.core.mesh.connectivity import connect
+from framelet.core.mesh.geometry import vertex_normals
+from framelet.core.mesh.surface_mesh import SurfaceMesh
 from meshes import MESHES, faces_of, flipped, mixed_sheet, noisy, triangle_grid, triangle_torus, union
 
 PRESET = pytest.mark.parametrize("preset", TRIANGLE_PRESETS)

@@ -9,8 +9,8 @@ import pytest
 from checks import assert_same_bits, read_only
 from framelet.core import SurfaceMesh
 from framelet.core.blocks import Blocks
-from framelet.core.surface import locality
-from framelet.core.surface.locality import is_scattered, reorder, spatial_order
+from framelet.core.mesh import locality
+from framelet.core.mesh.locality import is_scattered, reorder, spatial_order
 from meshes import MESHES, faces_of, triangle_torus
 
 EVERY = pytest.mark.parametrize("name", MESHES)

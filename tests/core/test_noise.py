@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from checks import assert_same_bits, edge_length, lengths, read_only
 from framelet.core import SurfaceMesh, add_noise
+from framelet.core.mesh.geometry import vertex_normals
 from framelet.core.noise import PAPER_SIGMA
-from framelet.core.surface.geometry import vertex_normals
 from meshes import flipped, mixed_sheet, triangle_grid, triangle_torus
 
 

@@ -9,11 +9,11 @@ import pytest
 from checks import edge_length, random_rotation, read_only
 from framelet.core import SurfaceMesh, add_noise, connect, estimate_noise
 from framelet.core.blocks import Blocks
+from framelet.core.mesh.geometry import mean_edge_length, vertex_normals
 from framelet.core.noise.estimate import N_PATCHES
 from framelet.core.noise.fits import fit_heights
 from framelet.core.noise.local_noise import chi_squared_quantile
 from framelet.core.noise.patches import find_patches, local_adjacency, spread_sample
-from framelet.core.surface.geometry import mean_edge_length, vertex_normals
 from meshes import (
     MESHES,
     faces_of,

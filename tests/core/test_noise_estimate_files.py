@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 from framelet.core import add_noise, connect, estimate_noise
-from framelet.core.surface.geometry import mean_edge_length, vertex_normals
+from framelet.core.mesh.geometry import mean_edge_length, vertex_normals
 from mesh_files import mesh_files, read_mesh
 
 TARGET = 0.15

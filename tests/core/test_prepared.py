@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from checks import assert_same_bits, lengths, read_only
 from framelet.core import PRESETS, PreparationCache, Region, SurfaceMesh, denoise, prepare
+from framelet.core import prepared as module
 from framelet.core.blocks import Blocks
-from framelet.core.denoising import prepared as module
-from framelet.core.denoising.preparation_cache import bytes_of
-from framelet.core.surface.locality import reorder
+from framelet.core.mesh.locality import reorder
+from framelet.core.preparation_cache import bytes_of
 from meshes import MESHES, faces_of, flipped, mixed_sheet, noisy, triangle_grid, triangle_torus, union
 
 POSITIONS = ("TRI_1", "TRI_2")

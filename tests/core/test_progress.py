@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from checks import TRIANGLE_PRESETS, edge_length, lengths
 from framelet.core import PRESETS, denoise
-from framelet.core.surface.geometry import signed_volume
+from framelet.core.mesh.geometry import signed_volume
 from meshes import MESHES, faces_of, flipped, mixed_sheet, noisy, triangle_grid, triangle_torus, turned_over
 
 PRESET = pytest.mark.parametrize("preset", TRIANGLE_PRESETS)

@@ -8,7 +8,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from framelet.core import BANKS, DEFAULT_PRESET, PRESETS, DenoiseSettings
-from framelet.core.denoising.shrinkage import SHRINKAGES
+from framelet.core.methods.shrinkage import SHRINKAGES
 
 INFO = {item.name: item.metadata["info"] for item in fields(DenoiseSettings)}
 KIND = {item.name: item.type for item in fields(DenoiseSettings)}

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from checks import assert_same_bits
 from framelet.core import DenoiseSettings, denoise
-from framelet.core.choices import METHODS
+from framelet.core.settings.choices import METHODS
 from meshes import MESHES, noisy
 
 INFO = {item.name: item.metadata["info"] for item in fields(DenoiseSettings)}

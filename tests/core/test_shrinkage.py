@@ -4,7 +4,7 @@
 
 import numpy as np
 import pytest
-from framelet.core.denoising.shrinkage import SHRINKAGES, clipped, shrink
+from framelet.core.methods.shrinkage import SHRINKAGES, clipped, shrink
 from twins import shrunk
 
 KIND = pytest.mark.parametrize("kind", SHRINKAGES)

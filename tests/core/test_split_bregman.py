@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from checks import AS_SOLVED, TRIANGLE_BANKS, edge_length, lengths, read_only
 from framelet.core import DenoiseSettings, denoise, make_stencil
-from framelet.core.surface.connectivity import connect
+from framelet.core.mesh.connectivity import connect
 from meshes import MESHES, flipped, mixed_sheet, noisy, triangle_torus
 from twins import split_bregman
 

@@ -10,9 +10,9 @@ from checks import read_only
 from framelet.core import make_stencil
 from framelet.core.blocks import Blocks
 from framelet.core.frames import BANKS
+from framelet.core.mesh.connectivity import connect
 from framelet.core.stencils import straight
 from framelet.core.stencils.builder import StencilBuilder
-from framelet.core.surface.connectivity import connect
 from meshes import (
     MESHES,
     bow_tie,

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from checks import edge_length, lengths, random_rotation, read_only
 from framelet.core import SurfaceMesh
-from framelet.core.surface.geometry import (
+from framelet.core.mesh.geometry import (
     face_area_vectors,
     face_normals,
     mean_edge_length,

@@ -8,7 +8,7 @@ from checks import TRIANGLE_BANKS, edge_length, lengths, read_only
 from framelet.core import BANKS, analyze, connect, make_stencil, make_transform, synthesize
 from framelet.core.blocks import Blocks
 from framelet.core.frames.valence_masks import FAMILIES
-from framelet.core.surface.geometry import mean_edge_length
+from framelet.core.mesh.geometry import mean_edge_length
 from mesh_files import mesh_files, read_mesh
 from meshes import MESHES, flipped, noisy, quad_torus, triangle_grid, triangle_torus, union
 

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import checkout  # noqa: F401
 from framelet.core import BANKS, PRESETS, DenoiseSettings
-from framelet.core.frame_catalog import FRAME_CATALOG
+from framelet.core.settings.frame_catalog import FRAME_CATALOG
 
 PRESET_FACTORS = (0.25, 0.5, 0.7, 1.4, 2.0, 4.0)
 FRAME_FACTORS = (0.125, 0.25, 0.5, 2.0, 4.0)

@@ -10,8 +10,8 @@ from typing import NamedTuple
 import checkout
 import numpy as np
 from framelet.core import Connectivity, SurfaceMesh, add_noise, compare, connect
+from framelet.core.mesh.geometry import face_normals
 from framelet.core.metrics import normal_angles
-from framelet.core.surface.geometry import face_normals
 from made import MADE
 from mesh_files import read_mesh
 

@@ -21,7 +21,7 @@ import checkout
 import numpy as np
 from cases import mesh_folder
 from framelet.core import SurfaceMesh, add_noise, connect, estimate_noise
-from framelet.core.surface.geometry import mean_edge_length
+from framelet.core.mesh.geometry import mean_edge_length
 from made import MADE
 from mesh_files import read_mesh
 from noise_tables import Row, page

@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 import sources  # noqa: F401
 from framelet.core import SurfaceMesh, add_noise
-from framelet.core.surface.geometry import mean_edge_length, vertex_normals
+from framelet.core.mesh.geometry import mean_edge_length, vertex_normals
 
 
 def along_normals(surface: SurfaceMesh, seed: int, sigma: float) -> np.ndarray:

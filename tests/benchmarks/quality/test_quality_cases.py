@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from framelet.core import add_noise, compare, connect
-from framelet.core.surface.geometry import mean_edge_length, signed_volume, vertex_normals
+from framelet.core.mesh.geometry import mean_edge_length, signed_volume, vertex_normals
 from meshes import faces_of
 from twins import newell
 

@@ -14,7 +14,7 @@ from stopwatch import Stopwatch, begin_peak, peak_bytes
 def plain(mesh, watch):
     """Tri-2 as the formulas stand in the paper, on whole arrays: no blocks, no threads, all seven bands."""
     from framelet.core import BANKS, PRESETS, connect, make_stencil
-    from framelet.core.surface.geometry import mean_edge_length
+    from framelet.core.mesh.geometry import mean_edge_length
 
     settings = PRESETS["TRI_2"].settings
     stencil = make_stencil(mesh, connect(mesh), "STRAIGHT", bank=BANKS["BOX_SPLINE_111"])

@@ -10,9 +10,9 @@ import bpy
 import loading  # noqa: F401
 import numpy as np
 from core_task import settings_of, warm_up
-from framelet.operators import denoise_object as operator_module
-from framelet.operators import mesh_bridge
-from framelet.operators.preparations import preparations
+from framelet.operators.mesh_io import mesh_bridge
+from framelet.operators.run import denoise_object as operator_module
+from framelet.operators.run.preparations import preparations
 from shapes import read_mesh
 from stopwatch import Stopwatch, begin_peak, peak_bytes
 

@@ -8,8 +8,8 @@ import sys
 import loading  # noqa: F401
 import numpy as np
 from framelet.core import PRESETS, DenoiseSettings, PreparationCache, SurfaceMesh, denoise
-from framelet.core.denoising import denoise as denoise_module
-from framelet.core.denoising import prepared as prepared_module
+from framelet.core import denoise as denoise_module
+from framelet.core import prepared as prepared_module
 from framelet.core.memory import estimated_bytes
 from shapes import read_mesh
 from stopwatch import Stopwatch, begin_peak, peak_bytes, triad_seconds

@@ -6,12 +6,12 @@
 from dataclasses import fields
 
 import pytest
-from framelet.core.frame_catalog import FRAME_CATALOG
 from framelet.core.settings import DEFAULT_PRESET, PRESETS, DenoiseSettings
+from framelet.core.settings.frame_catalog import FRAME_CATALOG
 from framelet.operators.command_line.arguments import as_word, option_name, settings_from
 from framelet.operators.command_line.messages import CommandError
 from framelet.operators.command_line.parser import make_parser
-from framelet.operators.setting_values import has_effect
+from framelet.operators.properties.setting_values import has_effect
 
 
 def parse(*options):

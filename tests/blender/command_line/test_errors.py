@@ -141,7 +141,7 @@ def test_failing_report_leaves_no_mesh(fails, source, unchanged, tmp_path, monke
 
 
 def test_interrupt(command, source, unchanged, tmp_path, monkeypatch):
-    from framelet.operators import denoise_object
+    from framelet.operators.run import denoise_object
 
     def interrupt(*_arguments, **_options):
         raise KeyboardInterrupt

@@ -8,9 +8,9 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from framelet.core.region_options import RegionOptions
 from framelet.operators.command_line.parser import make_parser
 from framelet.operators.command_line.region_arguments import region_options_from
+from framelet.operators.properties.region_options import RegionOptions
 
 
 @pytest.mark.parametrize(

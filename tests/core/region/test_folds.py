@@ -7,12 +7,12 @@ import pytest
 from checks import AS_SOLVED, assert_same_bits, lengths
 from framelet.core import PRESETS, Region, SurfaceMesh, denoise
 from framelet.core.blocks import Blocks
-from framelet.core.region.carrier import Carrier
-from framelet.core.region.corner_lists import corners_around
-from framelet.core.region.face_watch import DEGENERATE, FaceWatch
-from framelet.core.region.folds import take_back
-from framelet.core.surface.connectivity import connect
-from framelet.core.surface.geometry import face_area_vectors, mean_edge_length, signed_volume, vertex_normals
+from framelet.core.limits.face_watch import DEGENERATE, FaceWatch
+from framelet.core.limits.folds import take_back
+from framelet.core.mesh.carrier import Carrier
+from framelet.core.mesh.connectivity import connect
+from framelet.core.mesh.corner_lists import corners_around
+from framelet.core.mesh.geometry import face_area_vectors, mean_edge_length, signed_volume, vertex_normals
 from mesh_files import mesh_files, read_mesh
 from meshes import MESHES, faces_of, flipped, noisy, quad_torus, triangle_grid, triangle_torus
 from region_cases import METHODS, exploded

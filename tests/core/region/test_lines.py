@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from checks import assert_same_bits, lengths, random_rotation
 from framelet.core import PRESETS, Region, denoise
-from framelet.core.region.lines import (
+from framelet.core.limits.lines import (
     LARGEST_MOTION,
     LOW_PASS_ROUNDS,
     LOW_PASS_STEPS,

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from checks import assert_same_bits
 from framelet.core import PRESETS, Region, denoise
-from framelet.core.region_options import RegionOptions
+from framelet.operators.properties.region_options import RegionOptions
 from meshes import noisy, triangle_torus
 
 TRI_2 = PRESETS["TRI_2"].settings

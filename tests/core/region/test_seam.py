@@ -5,8 +5,8 @@
 import numpy as np
 import pytest
 from checks import assert_same_bits
-from framelet.core.region.seam import RINGS, fade_shift_in, faded_in, rings_beside
-from framelet.core.surface.geometry import vertex_normals
+from framelet.core.limits.seam import RINGS, fade_shift_in, faded_in, rings_beside
+from framelet.core.mesh.geometry import vertex_normals
 from meshes import flipped, mixed_sheet, triangle_torus
 from region_cases import rings_from
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from checks import assert_same_bits, edge_length, lengths
 from framelet.core import PRESETS, DenoiseSettings, Region, denoise
-from framelet.core.region.volume import volume_offset
-from framelet.core.surface.geometry import signed_volume
+from framelet.core.limits.volume import volume_offset
+from framelet.core.mesh.geometry import signed_volume
 from meshes import (
     flipped,
     noisy,

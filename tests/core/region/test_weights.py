@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from checks import assert_same_bits, edge_length, lengths
 from framelet.core import PRESETS, DenoiseSettings, Region, denoise
-from framelet.core.surface.geometry import vertex_normals
+from framelet.core.mesh.geometry import vertex_normals
 from meshes import noisy, triangle_grid, triangle_torus
 from region_cases import METHODS, dihedral_angles, rings_from
 

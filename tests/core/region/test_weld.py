@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from checks import assert_same_bits, edge_length, lengths
 from framelet.core import PRESETS, PreparationCache, Region, SurfaceMesh, denoise, prepare
-from framelet.core.region.weld import make_weld, same_places
-from framelet.core.surface.connectivity import connect
+from framelet.core.mesh.connectivity import connect
+from framelet.core.mesh.weld import make_weld, same_places
 from meshes import faces_of, flipped, mixed_sheet, noisy, quad_grid, quad_torus, triangle_grid, triangle_torus
 from region_cases import METHODS, box, exploded, renumbered
 

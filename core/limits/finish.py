@@ -1,0 +1,111 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""From the displacements that a method found to the positions of the result.
+
+The order: shifts at seams, direction along the normals, weights, offset for the volume, largest displacement,
+folds. Folds come last, so that no other step makes new ones; as damping changes the volume, the offset is
+then found again.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..blocks import Blocks
+from ..mesh.carrier import Carrier
+from .face_watch import FaceState, FaceWatch
+from .folds import take_back
+from .motion import Motion
+from .region import Region
+from .volume import volume_offset
+
+VOLUME_ROUNDS = 8
+"""Times that offset and folds take turns at most."""
+
+
+class Finished(NamedTuple):
+    """Positions of the carrier's surface, shape (N, 3), its faces as they are now, and damped vertices."""
+
+    vertices: NDArray[np.floating]
+    watch: FaceWatch
+    n_damped: int
+
+
+def finish(
+    found: NDArray[np.float64],
+    carrier: Carrier,
+    region: Region,
+    movable: NDArray[np.bool_] | None,
+    weights: NDArray[np.float64] | None,
+    pinned: NDArray[np.intp],
+    blocks: Blocks,
+    before: FaceState | None = None,
+) -> Finished:
+    """Bring displacements within the limits of a region, and mend what they do.
+
+    Parameters
+    ----------
+    found : ndarray, shape (3, n), float64
+        Displacements of the vertices of the mesh that was worked on, in scene units; changed.
+    carrier : Carrier
+        That mesh, and the one that moves.
+    region : Region
+        The limits.
+    movable : ndarray, shape (n,), bool, or None
+        Vertices of the mesh that was worked on that may move; None for all.
+    weights : ndarray, shape (n,), or None
+        Shares of their motion.
+    pinned : ndarray, shape (p,), int
+        Vertices of it that take no part in the offset for the volume.
+    blocks : Blocks
+        Threads to work on.
+    before : FaceState, optional
+        The faces of the input, if they are known already, see `FaceWatch`.
+
+    Returns
+    -------
+    Finished
+    """
+    motion = Motion(found, carrier, region, movable, weights, pinned)
+    watch = FaceWatch(carrier, blocks, before)
+    shares = np.ones(found.shape[1])
+    vertices = _settled(motion.at(), shares, watch, region, blocks)
+    if not (region.keep_volume and carrier.connectivity.is_closed):
+        return Finished(vertices, watch, _n_damped(motion.at(), shares))
+    area = watch.area_before * motion.allow_offset(shares)
+
+    def volume_at(offset: float) -> float:
+        return watch.volume_at(carrier.moved(motion.at(offset) * shares, blocks))
+
+    offset = 0.0
+    for _ in range(VOLUME_ROUNDS):
+        offset = volume_offset(volume_at, watch.before.volume, area, offset)
+        old_shares = shares.copy()
+        vertices = _settled(motion.at(offset), shares, watch, region, blocks)
+        if np.array_equal(old_shares, shares):
+            break
+    return Finished(vertices, watch, _n_damped(motion.at(offset), shares))
+
+
+def _settled(
+    displacement: NDArray[np.float64],
+    shares: NDArray[np.float64],
+    watch: FaceWatch,
+    region: Region,
+    blocks: Blocks,
+) -> NDArray[np.floating]:
+    """Return the positions after a displacement, with folds taken back if that is wanted."""
+    if region.repair_folds:
+        return take_back(watch, displacement, shares, blocks)
+    vertices = watch.carrier.moved(displacement, blocks)
+    watch.look(vertices)
+    return vertices
+
+
+def _n_damped(displacement: NDArray[np.float64], shares: NDArray[np.float64]) -> int:
+    """Return the number of vertices whose motion was damped."""
+    some = np.flatnonzero(shares < 1.0)
+    return int(np.count_nonzero(displacement[:, some].any(axis=0)))

@@ -1,0 +1,136 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Bilateral mesh filtering, the paper's baseline [48] (Fleishman, Drori, Cohen-Or 2003)."""
+
+from __future__ import annotations
+
+from math import ceil
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..blocks import Blocks
+from ..limits.constraints import Constraints
+from ..mesh.connectivity import Connectivity
+from ..mesh.geometry import vertex_normals
+from ..mesh.neighborhoods import vertices_within
+from ..mesh.surface_mesh import SurfaceMesh
+from ..report import Callback
+from ..settings import DenoiseSettings
+from .progress import rms_motion
+
+_Pairs = tuple[NDArray[np.intp], NDArray[np.intp]]
+
+VERTICES_AT_ONCE = 2**14
+"""Vertices whose neighborhoods are found at once: there are many pairs to each."""
+
+
+def bilateral_filter(
+    noisy: NDArray[np.floating],
+    surface: SurfaceMesh,
+    connectivity: Connectivity,
+    settings: DenoiseSettings,
+    constraints: Constraints,
+    blocks: Blocks,
+    callback: Callback | None = None,
+) -> tuple[NDArray[np.floating], int, bool]:
+    """Move each vertex along its normal by the weighted mean height of its neighborhood.
+
+    Parameters
+    ----------
+    noisy : ndarray, shape (3, N)
+        Noisy positions in mean edge lengths, coordinates in rows; not modified.
+    surface : SurfaceMesh
+        The mesh, for its faces.
+    connectivity : Connectivity
+        Its neighborhoods.
+    settings : DenoiseSettings
+        `iterations`, `tolerance`, `sigma_c`, and `sigma_s`, where 0 stands for the standard deviation of the
+        heights on the noisy mesh.
+    constraints : Constraints
+        Vertices that may not move freely.
+    blocks : Blocks
+        Threads to work on.
+    callback : callable, optional
+        See `report.Callback`.
+
+    Returns
+    -------
+    points, iterations, is_stopped
+        As `split_bregman` returns them.
+
+    Notes
+    -----
+    For a vertex p with normal n and the neighbors q within 2 sigma_c: t = |p - q|, h = <n, q - p>,
+    w = exp(-t^2 / 2 sigma_c^2) exp(-h^2 / 2 sigma_s^2), p <- p + n sum(w h) / sum(w). Neighbors are looked
+    for along the surface, as far as 2 sigma_c edges.
+    """
+    dtype = noisy.dtype.type
+    points = noisy.copy()
+    blocks = blocks.sized(min(blocks.block_size, VERTICES_AT_ONCE))
+    reach = max(1, ceil(2.0 * settings.sigma_c))
+    pairs = blocks.run(lambda start, stop: vertices_within(connectivity, start, stop, reach), noisy.shape[1])
+    sigma_s = settings.sigma_s
+    for iteration in range(1, settings.iterations + 1):
+        normals = np.ascontiguousarray(vertex_normals(surface.with_vertices(points.T)).T, dtype)
+        if sigma_s == 0.0:
+            sigma_s = _height_deviation(points, normals, pairs, settings.sigma_c, blocks)
+        following = points.copy()
+
+        def kernel(
+            start: int,
+            stop: int,
+            points: NDArray[np.floating] = points,
+            normals: NDArray[np.floating] = normals,
+            following: NDArray[np.floating] = following,
+            sigma_s: float = sigma_s,
+        ) -> None:
+            center, member = pairs[start // blocks.block_size]
+            squared, height = _offsets(points, normals, center, member)
+            weight = np.exp(squared * dtype(-0.5 / settings.sigma_c**2))
+            if sigma_s > 0.0:
+                weight *= np.exp(height * height * dtype(-0.5 / sigma_s**2))
+            weight[squared > 4.0 * settings.sigma_c**2] = 0.0
+            total = np.bincount(center - start, weight, stop - start)
+            moved = np.bincount(center - start, weight * height, stop - start)
+            moved = np.divide(moved, total, out=np.zeros(stop - start), where=total > 0)
+            following[:, start:stop] += normals[:, start:stop] * moved.astype(dtype)
+
+        blocks.run(kernel, noisy.shape[1])
+        constraints.apply(following, noisy)
+        change = rms_motion(following, points, blocks)
+        points = following
+        if callback is not None and callback(iteration / settings.iterations, change):
+            return points, iteration, True
+        if change < settings.tolerance:
+            return points, iteration, False
+    return points, settings.iterations, False
+
+
+def _offsets(
+    points: NDArray[np.floating],
+    normals: NDArray[np.floating],
+    center: NDArray[np.intp],
+    member: NDArray[np.intp],
+) -> tuple[NDArray[np.floating], NDArray[np.floating]]:
+    """Return squared distances and heights above the tangent plane of pairs, each shape (P,)."""
+    arms = points.take(member, axis=1) - points.take(center, axis=1)
+    return np.einsum("cp,cp->p", arms, arms), np.einsum("cp,cp->p", arms, normals.take(center, axis=1))
+
+
+def _height_deviation(
+    points: NDArray[np.floating],
+    normals: NDArray[np.floating],
+    pairs: list[_Pairs],
+    sigma_c: float,
+    blocks: Blocks,
+) -> float:
+    """Return the standard deviation of the heights of all neighbors within 2 sigma_c."""
+
+    def kernel(start: int, stop: int) -> NDArray[np.float64]:
+        squared, height = _offsets(points, normals, *pairs[start // blocks.block_size])
+        height = height[squared <= 4.0 * sigma_c**2].astype(np.float64)
+        return np.array([len(height), height.sum(), (height * height).sum()])
+
+    count, total, squares = np.sum(blocks.run(kernel, points.shape[1]), axis=0)
+    return float(np.sqrt(max(squares / count - (total / count) ** 2, 0.0))) if count else 0.0

@@ -1,0 +1,246 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a run needs and later runs on the same mesh can use again: neighborhoods, stencils, normalized space.
+
+It depends on the mesh and on the settings that choose the stencils, not on λ, μ, δ, iterations and the like.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, fields
+from typing import Any
+
+import numpy as np
+from numpy.typing import DTypeLike, NDArray
+
+from .blocks import Blocks
+from .learned.engine import FaceEngine
+from .limits.constraints import Corners, find_corners
+from .limits.face_watch import FaceState
+from .memory import give_back
+from .mesh.checks import check_positions, check_surface
+from .mesh.connectivity import Connectivity, connect
+from .mesh.locality import Reordering, is_scattered, reorder, spatial_order
+from .mesh.normalization import normalize
+from .mesh.surface_mesh import SurfaceMesh
+from .methods.shrinkage import SEPARABLE
+from .settings import DEFAULT_PRESET, PRESETS, DenoiseSettings
+from .transform import FrameTransform, choose_frame, make_transform
+
+COMPARED_AT_ONCE = 2**18
+"""Rows of two arrays that are compared in one piece."""
+
+TOPOLOGY = tuple(item.name for item in fields(SurfaceMesh) if item.name != "vertices")
+
+
+@dataclass(frozen=True, eq=False)
+class Prepared:
+    """A mesh that is ready to be denoised.
+
+    It holds arrays that a run writes to: use it for one run at a time.
+
+    Attributes
+    ----------
+    surface : SurfaceMesh
+        The mesh that it was made for. Its arrays must not be changed as long as this is used.
+    reordering : Reordering or None
+        The same mesh with other numbers, if that makes the work faster; the arrays below go by them.
+    connectivity : Connectivity
+        The neighborhoods.
+    edge : float
+        Mean edge length in scene units.
+    noisy : ndarray, shape (3, N)
+        Normalized positions.
+    corners : Corners
+        Corners of borders.
+    transform : FrameTransform or None
+        The frame, if the method uses one.
+    engine : FaceEngine or None
+        Tables of faces, if the method uses them.
+    blocks : Blocks
+        Threads to work on, to be entered by each run.
+    faces : list of FaceState
+        What the first run that was finished on it found out about the faces of `ordered`; empty before.
+    """
+
+    surface: SurfaceMesh
+    reordering: Reordering | None
+    connectivity: Connectivity
+    edge: float
+    noisy: NDArray[np.floating]
+    corners: Corners
+    transform: FrameTransform | None
+    engine: FaceEngine | None
+    blocks: Blocks
+    key: tuple[Any, ...]
+    faces: list[FaceState] = field(default_factory=list)
+
+    @property
+    def ordered(self) -> SurfaceMesh:
+        """The mesh in the numbering that the work is done in."""
+        return self.surface if self.reordering is None else self.reordering.surface
+
+    def fits(self, surface: SurfaceMesh, settings: DenoiseSettings, dtype: DTypeLike = np.float32) -> bool:
+        """Tell whether this can be used for a mesh and settings: all arrays are compared value by value."""
+        return self.has_topology_of(surface) and self.fits_positions(surface, settings, dtype)
+
+    def has_topology_of(self, surface: SurfaceMesh, blocks: Blocks | None = None) -> bool:
+        """Tell whether this was made for a mesh with the same faces and edges; `blocks` are threads."""
+        own = self.surface
+        return all(_is_same(getattr(own, name), getattr(surface, name), blocks) for name in TOPOLOGY)
+
+    def fits_positions(
+        self, surface: SurfaceMesh, settings: DenoiseSettings, dtype: DTypeLike = np.float32
+    ) -> bool:
+        """Tell whether this can be used for a mesh whose faces and edges are known to be the same."""
+        return self.key == _key(settings, dtype) and _is_same(self.surface.vertices, surface.vertices)
+
+
+def prepare(
+    surface: SurfaceMesh,
+    settings: DenoiseSettings | None = None,
+    *,
+    connectivity: Connectivity | None = None,
+    dtype: DTypeLike = np.float32,
+    previous: Prepared | None = None,
+    should_stop: Callable[[], bool] | None = None,
+) -> Prepared:
+    """Do all of a run that does not depend on λ, μ, δ, iterations, tolerance and movable vertices.
+
+    Parameters
+    ----------
+    surface : SurfaceMesh
+        The noisy surface; not modified, and kept.
+    settings : DenoiseSettings, optional
+        Method, frame, stencil, levels, boundary and shrinkage count; by default those of the preset AUTO.
+    connectivity : Connectivity, optional
+        Neighborhoods of the mesh, if they are known already.
+    dtype : dtype, optional
+        Precision of the solver.
+    previous : Prepared, optional
+        What was prepared before. If it is for the same mesh and the same stencils it is returned; if only the
+        faces are the same, its neighborhoods are used.
+    should_stop : callable, optional
+        Asked many times; returns True to stop.
+
+    Returns
+    -------
+    Prepared
+
+    Raises
+    ------
+    Stopped
+        If it was asked to stop.
+    ValueError
+        In one sentence, if the mesh has no faces, no size or positions that are not finite, or if the frame
+        does not fit it.
+    """
+    settings = settings or PRESETS[DEFAULT_PRESET].settings
+    if previous is not None and not previous.has_topology_of(surface):
+        previous = None
+    return prepare_again(surface, settings, previous, connectivity, dtype, should_stop)
+
+
+def prepare_again(
+    surface: SurfaceMesh,
+    settings: DenoiseSettings,
+    previous: Prepared | None,
+    connectivity: Connectivity | None = None,
+    dtype: DTypeLike = np.float32,
+    should_stop: Callable[[], bool] | None = None,
+) -> Prepared:
+    """Do what `prepare` does, with something `previous` that is known to have the topology of the mesh."""
+    if previous is not None and previous.fits_positions(surface, settings, dtype):
+        return previous
+    prepared = _prepare(surface, settings, previous, connectivity, dtype, should_stop)
+    give_back(surface.n_vertices)
+    return prepared
+
+
+def _prepare(
+    surface: SurfaceMesh,
+    settings: DenoiseSettings,
+    previous: Prepared | None,
+    connectivity: Connectivity | None,
+    dtype: DTypeLike,
+    should_stop: Callable[[], bool] | None,
+) -> Prepared:
+    """Prepare a mesh, with the neighborhoods of something that has the same topology, if there is one."""
+    reordering = None
+    if previous is not None:
+        connectivity, reordering = previous.connectivity, previous.reordering
+        if reordering is not None:
+            reordering = reordering.with_vertices(surface.vertices)
+    blocks = Blocks(settings.threads)
+    with blocks.stopped_by(should_stop):
+        check_positions(surface)  # while its vertices have the numbers that the caller knows
+        if connectivity is None and is_scattered(surface):
+            reordering = reorder(surface, spatial_order(surface.vertices), blocks)
+        ordered = surface if reordering is None else reordering.surface
+        if connectivity is None:
+            labels = None if reordering is None else reordering.vertex_order
+            connectivity = connect(ordered, blocks, labels)
+        edge = check_surface(ordered, blocks, connectivity.edge_face_count)
+        normalized = normalize(ordered, connectivity, edge, blocks)
+        transform = engine = None
+        if settings.method == "AUTO":
+            engine = None if previous is None else previous.engine
+            if engine is None:
+                engine = FaceEngine(ordered, connectivity, blocks)
+            engine = engine.placed(ordered, connectivity)
+        if settings.method == "POSITIONS":
+            # Chosen on the normalized surface in full precision, so that rounding decides nothing.
+            transform = make_transform(
+                ordered.with_vertices(normalized),
+                choose_frame(settings.frame, connectivity),
+                settings.stencil,
+                settings.levels,
+                boundary=settings.boundary,
+                connectivity=connectivity,
+                blocks=blocks,
+                dtype=dtype,
+                only_used_bands=settings.shrinkage in SEPARABLE,
+            )
+        # The fit of learned shrinkage pulls nothing along borders, so that their corners need no care.
+        boundary = "FREE" if settings.method == "AUTO" else settings.boundary
+        corners = find_corners(ordered, connectivity, boundary)
+        noisy = np.empty((3, surface.n_vertices), dtype)
+
+        def turn(start: int, stop: int) -> None:
+            noisy[:, start:stop] = normalized[start:stop].T
+
+        blocks.run(turn, surface.n_vertices)
+    return Prepared(
+        surface,
+        reordering,
+        connectivity,
+        edge,
+        noisy,
+        corners,
+        transform,
+        engine,
+        blocks,
+        _key(settings, dtype),
+    )
+
+
+def _key(settings: DenoiseSettings, dtype: DTypeLike) -> tuple[Any, ...]:
+    """Return what makes the stencils, besides the mesh."""
+    frame: tuple[Any, ...] = ()
+    if settings.method == "POSITIONS":
+        frame = (settings.frame, settings.stencil, settings.levels, settings.shrinkage in SEPARABLE)
+    return (settings.method, settings.boundary, np.dtype(dtype), *frame)
+
+
+def _is_same(first: NDArray, second: NDArray, blocks: Blocks | None = None) -> bool:
+    """Tell whether two arrays have the same type, shape and values."""
+    if first is second:
+        return True
+    if first.dtype != second.dtype or first.shape != second.shape:
+        return False
+
+    def kernel(start: int, stop: int) -> bool:
+        return np.array_equal(first[start:stop], second[start:stop])
+
+    return all((blocks or Blocks(1)).sized(COMPARED_AT_ONCE).run(kernel, len(first)))

@@ -1,0 +1,93 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a denoising run gives back: the vertices and an account of what was done."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .mesh.surface_mesh import SurfaceMesh
+from .noise import NoiseEstimate
+from .settings import DenoiseSettings
+
+Callback = Callable[[float, float], bool]
+"""`callback(fraction, change)`: share of the work done, 0 to 1, and rms motion of the last iteration in mean
+edge lengths; returns True to stop."""
+
+
+@dataclass(frozen=True)
+class DenoiseReport:
+    """An account of a run; lengths are in the units of the mesh."""
+
+    n_vertices: int
+    n_faces: int
+    n_moved: int
+    """Vertices that moved at all."""
+    iterations: int
+    """Iterations that ran, fewer than asked for if the tolerance was met or the run was stopped."""
+    is_stopped: bool
+    """True if the run was stopped from outside."""
+    mean_edge_length: float
+    displacement_rms: float
+    displacement_max: float
+    flipped_faces: int
+    """Faces whose normal turned by more than a right angle, as where a fold or a spike was smoothed out."""
+    volume_change: float | None
+    """(after - before) / before; None unless the mesh is closed."""
+    irregular_vertices: int
+    """Vertices that took the stencil's rule for irregular vertices."""
+    boundary_vertices: int
+    non_manifold_vertices: int
+    loose_vertices: int
+    """Vertices without a face; they do not move."""
+    seconds: float
+    settings: DenoiseSettings
+    """What was used; λ, μ and iterations are those that were chosen, where they are taken from the noise."""
+    noise: NoiseEstimate | None = None
+    """The noise, if it was measured: with the method AUTO a `NoiseBelief`, what was taken for noise."""
+    folded_faces: int = 0
+    folded_faces_before: int = 0
+    """Faces that look against the faces around them, see `FaceWatch`, in the result and in the input."""
+    degenerate_faces: int = 0
+    degenerate_faces_before: int = 0
+    """Faces next to without area, in the result and in the input."""
+    damped_vertices: int = 0
+    """Vertices that moved less than they would have, so that no face folds."""
+    line_vertices: int = 0
+    """Vertices on feature lines, those that stay included."""
+    welded_vertices: int = 0
+    """Vertices that were welded to others for the run."""
+
+
+@dataclass(frozen=True, eq=False)
+class DenoiseResult:
+    """Denoised positions, shape (N, 3), of the input's dtype, and the report."""
+
+    vertices: NDArray[np.floating]
+    report: DenoiseReport
+
+
+def stopped_report(surface: SurfaceMesh, settings: DenoiseSettings, seconds: float) -> DenoiseReport:
+    """Return the report of a run that was stopped before anything was known: nothing moved."""
+    return DenoiseReport(
+        n_vertices=surface.n_vertices,
+        n_faces=surface.n_faces,
+        n_moved=0,
+        iterations=0,
+        is_stopped=True,
+        mean_edge_length=0.0,
+        displacement_rms=0.0,
+        displacement_max=0.0,
+        flipped_faces=0,
+        volume_change=None,
+        irregular_vertices=0,
+        boundary_vertices=0,
+        non_manifold_vertices=0,
+        loose_vertices=0,
+        seconds=seconds,
+        settings=settings,
+    )

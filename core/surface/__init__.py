@@ -1,3 +1,0 @@
-# SPDX-FileCopyrightText: 2026 Framelet contributors
-# SPDX-License-Identifier: GPL-3.0-or-later
-"""The polygon mesh: its arrays, connectivity and geometry."""

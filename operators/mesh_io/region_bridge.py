@@ -1,0 +1,104 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What limits a run to parts of an object: selection, hidden vertices, a vertex group, sharp edges."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from ..properties.scene_units import linear_part
+from . import mesh_bridge
+
+if TYPE_CHECKING:
+    import bpy
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from ...core import Region, SurfaceMesh
+    from ..properties.region_options import RegionOptions
+
+SELECTED = ".select_vert"
+HIDDEN = ".hide_vert"
+SHARP = "sharp_edge"
+CREASE = "crease_edge"
+"""Blender's names of attributes, which it leaves away where all values are false or 0."""
+
+
+class RegionRead(NamedTuple):
+    """A mesh and what may move of it: a mask of shape (N,), or None for all, and the other limits."""
+
+    surface: SurfaceMesh
+    movable: NDArray[np.bool_] | None
+    region: Region
+
+
+def read_region(obj: bpy.types.Object, options: RegionOptions) -> RegionRead:
+    """Read the mesh of an object, and what a run may change of it.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        A mesh object in Object Mode or Edit Mode; its active shape key is read.
+    options : RegionOptions
+        What the user asks for.
+
+    Raises
+    ------
+    ValueError
+        With a sentence that names the object, if it has no such vertex group, or if nothing may move.
+    """
+    from ...core.mesh.geometry import mean_edge_length
+
+    is_edited = obj.data.is_editmode
+    with mesh_bridge.readable_mesh(obj) as mesh:
+        surface = mesh_bridge.read_arrays(mesh, None if is_edited else mesh_bridge.active_key(obj))
+        movable = _movable(obj, mesh, is_edited, options)
+        sharp = _sharp_edges(mesh, surface) if options.keep_sharp else None
+    weights = None
+    if options.vertex_group:
+        weights = mesh_bridge.read_weights(obj, options.vertex_group)
+        moves = weights < 1.0 if options.invert_group else weights > 0.0
+        if not (moves if movable is None else moves & movable).any():
+            inverted = ", inverted," if options.invert_group else ""
+            which = "vertices" if movable is None else "vertices that may move"
+            raise ValueError(
+                f"The vertex group ‘{options.vertex_group}’{inverted} of ‘{obj.name}’ gives no weight to any "
+                f"of its {which}; give them weights, or choose another group."
+            )
+    edge = mean_edge_length(surface) if options.limit == "EDGES" else 0.0
+    return RegionRead(surface, movable, options.region(edge, _largest_scale(obj), weights, sharp))
+
+
+def _movable(
+    obj: bpy.types.Object, mesh: bpy.types.Mesh, is_edited: bool, options: RegionOptions
+) -> NDArray[np.bool_] | None:
+    """Return which vertices may move; None for all."""
+    hidden = mesh_bridge.read_flag(mesh, HIDDEN)
+    if is_edited:
+        # In Edit Mode hidden vertices are not selected.
+        movable = mesh_bridge.read_flag(mesh, SELECTED) & ~hidden
+        if not movable.any():
+            raise ValueError(f"‘{obj.name}’ has no selected vertices; select what should be denoised.")
+        return movable
+    if not options.keep_hidden or not hidden.any():
+        return None
+    if hidden.all():
+        raise ValueError(
+            f"All vertices of ‘{obj.name}’ are hidden; reveal some in Edit Mode, or turn off Leave Hidden "
+            "Alone."
+        )
+    return ~hidden
+
+
+def _sharp_edges(mesh: bpy.types.Mesh, surface: SurfaceMesh) -> NDArray[np.int32]:
+    """Return the edges that are marked sharp or creased, shape (E, 2)."""
+    is_sharp = mesh_bridge.read_edge_values(mesh, SHARP, "bool")
+    is_sharp |= mesh_bridge.read_edge_values(mesh, CREASE, "float32") > 0.0
+    return surface.edges[is_sharp]
+
+
+def _largest_scale(obj: bpy.types.Object) -> float:
+    """Return the largest scale of an object, so that no length in the scene is exceeded in any direction."""
+    import numpy as np
+
+    return float(np.linalg.norm(linear_part(obj), 2))

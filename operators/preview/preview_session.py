@@ -1,0 +1,294 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A live preview of one object: the mesh shows what the settings would give, until it gets its bits back.
+
+`begin_preview`, `tick`, `end` and `apply` are plain calls on the main thread; a timer makes them.
+"""
+
+from __future__ import annotations
+
+import traceback
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from ..mesh_io import kept_original, mesh_bridge
+from ..properties.output_choices import IN_PLACE
+from ..run.denoise_job import DenoiseJob, DenoiseOutcome, compute
+from ..run.denoise_object import read_job, write_outcome
+from ..run.denoise_run import Written
+from ..run.output import refusal
+from ..run.run_guard import find_mesh, find_object, mark_of, what_changed
+from .latest import Latest
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    import bpy
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from ...core.settings import DenoiseSettings
+    from ..properties.region_options import RegionOptions
+
+MOST_VERTICES = 500_000
+"""Above this a change takes a second and more to be seen, and pressing Denoise serves better."""
+
+FEW = 0.5
+"""Share of the vertices up to which an edit counts as one of some vertices, whose way is kept. More are
+moved by applying a scale and the like, after which the original does not belong to the mesh any more."""
+
+
+class PreviewSession:
+    """The preview of one object; `begin_preview` makes it.
+
+    Attributes
+    ----------
+    name : str
+        The object's name.
+    mark : Mark
+        What the object is recognized by.
+    message : str
+        One sentence if there is nothing to show with these settings, or on why the preview ended.
+    """
+
+    def __init__(self, obj: bpy.types.Object, job: DenoiseJob, options: RegionOptions) -> None:
+        self.message = ""
+        self.is_on = True
+        self.mark = mark_of(obj)
+        self._job = job
+        self._options = options
+        self._original = job.surface.vertices
+        self._shown = self._original
+        self._wanted: DenoiseJob | None = None
+        self._outcome: tuple[DenoiseJob, DenoiseOutcome] | None = None
+        self._is_touched = self._is_any_touched = self._is_suspended = False
+        self._is_allowed = True
+        kept_original.keep(obj.data, self._original)
+        self._latest: Latest[DenoiseJob, DenoiseOutcome] = Latest(_compute)
+
+    @property
+    def name(self) -> str:
+        """The object's name when the preview began."""
+        return self.mark.name
+
+    @property
+    def mesh_uid(self) -> int:
+        """The `session_uid` of the mesh."""
+        return self.mark.mesh_uid
+
+    @property
+    def is_current(self) -> bool:
+        """Whether the mesh shows what was asked for last."""
+        return self._outcome is not None and self._outcome[0] is self._wanted
+
+    def find_object(self) -> bpy.types.Object | None:
+        """Return the object; None if it is gone."""
+        return find_object(self.mark)
+
+    def touch(self, touched: set[int]) -> None:
+        """Note the session numbers of objects and meshes that may have been edited, for the next tick."""
+        self._is_any_touched = True
+        if not touched.isdisjoint((self.mark.object_uid, self.mark.mesh_uid)):
+            self._is_touched = True
+
+    def tick(self, settings: DenoiseSettings, options: RegionOptions) -> bool:
+        """Ask for what the settings give, and show what has been computed. Call it often.
+
+        Parameters
+        ----------
+        settings : DenoiseSettings
+            What to show.
+        options : RegionOptions
+            Where vertices may move.
+
+        Returns
+        -------
+        bool
+            False once the preview is over; `message` says why.
+        """
+        if not self.is_on or self._is_suspended:
+            return self.is_on
+        change = what_changed(self.mark, self._job.surface)
+        if change is not None:
+            self.end(f"{change}, so that the preview ended.")
+            return False
+        if self._is_any_touched:
+            self._is_any_touched = False
+            kept_original.put_all_back(self.mark.mesh_uid)  # copies of what is shown
+        if self._is_touched:
+            self._is_touched = False
+            if not self._keeps_showing():
+                return False
+        if options != self._options:
+            self._read_again(options)
+        answer = self._latest.take()
+        if not self._is_allowed:
+            return True
+        if self._wanted is None or settings != self._wanted.settings:
+            self._wanted = replace(self._job, settings=settings)
+            self._latest.request(self._wanted)
+        if answer is not None and answer.request.region is self._job.region:
+            self._take(answer.request, answer.result, answer.error)
+        return True
+
+    def wait(self, seconds: float) -> bool:
+        """Wait for what is being computed, at most so long; return whether that is done."""
+        return self._latest.wait(seconds)
+
+    def suspend(self) -> None:
+        """Give the mesh its original positions until `resume`; for saving files."""
+        mesh = find_mesh(self.mark)
+        if self.is_on and not self._is_suspended and mesh is not None:
+            self._is_suspended = True
+            kept_original.put_back(mesh)
+
+    def resume(self) -> None:
+        """Show the preview again."""
+        obj = self.find_object()
+        if not self._is_suspended:
+            return
+        self._is_suspended = False
+        if obj is not None and what_changed(self.mark, self._job.surface) is None:
+            kept_original.keep(obj.data, self._original)
+            mesh_bridge.show_positions(obj.data, self._shown)
+
+    def end(self, message: str = "") -> None:
+        """End the preview and give the mesh its original positions, bit by bit.
+
+        A mesh that was joined, cut or subdivided meanwhile is left as it is, since nothing says where its
+        vertices were.
+        """
+        if not self._close(message):
+            return
+        mesh = find_mesh(self.mark)
+        if mesh is not None and kept_original.has_kept(mesh):
+            kept_original.put_back(mesh)
+
+    def leave(self) -> None:
+        """End the preview without touching the mesh; for a file that is being closed."""
+        self._close("")
+
+    def apply(self, output: str = IN_PLACE) -> Written:
+        """End the preview and keep what it shows.
+
+        Parameters
+        ----------
+        output : str
+            One of `output_choices.OUTPUTS`.
+
+        Raises
+        ------
+        ValueError
+            In one sentence, if there is nothing to keep yet, or not there.
+        """
+        obj = self.find_object()
+        if obj is None or not self.is_on or self._outcome is None or not self.is_current:
+            raise ValueError("The preview does not show these settings yet; wait a moment and apply it then.")
+        reason = refusal(obj, output)
+        if reason is not None:
+            raise ValueError(reason)
+        outcome = self._outcome[1]
+        self.end()
+        written = write_outcome(obj, replace(self._outcome[0], output=output), outcome)
+        return Written(obj, written, outcome.measured)
+
+    @property
+    def has_ended(self) -> bool:
+        """Whether the thread has ended too."""
+        return self._latest.has_ended
+
+    def join(self) -> None:
+        """Wait until the thread of a preview that is over has ended."""
+        self._latest.join()
+
+    def _close(self, message: str) -> bool:
+        """Stop computing; return whether the preview was on."""
+        was_on, self.is_on = self.is_on, False
+        if was_on:
+            self.message = message
+            self._latest.close()
+        return was_on
+
+    def _read_again(self, options: RegionOptions) -> None:
+        """Read where vertices may move, on the original; with options that do not fit, show it."""
+        obj = self.find_object()
+        assert obj is not None  # `tick` has looked
+        self._options, self._wanted = options, None
+        self.suspend()
+        try:
+            job = read_job(obj, self._job.settings, IN_PLACE, options)
+            self._job, self._is_allowed = replace(job, surface=self._job.surface), True
+        except ValueError as error:
+            self._is_allowed, self._outcome = False, None
+            self._shown, self.message = self._original, str(error)
+        finally:
+            self.resume()
+
+    def _keeps_showing(self) -> bool:
+        """Look whether the mesh shows what it should; if it was edited, keep the edit and end."""
+        import numpy as np
+
+        obj = self.find_object()
+        assert obj is not None
+        now = mesh_bridge.read_positions(obj.data)
+        edited = (now.view(np.uint32) != self._shown.view(np.uint32)).any(axis=1)
+        if not edited.any():
+            return True
+        if edited.mean() < FEW:
+            positions = self._original.copy()
+            positions[edited] += now[edited] - self._shown[edited]
+            kept_original.keep(obj.data, positions)
+            self.end(f"The mesh of ‘{self.name}’ was edited, so that the preview ended.")
+        else:
+            kept_original.forget(obj.data)
+            self._close(
+                f"All of ‘{self.name}’ was edited; it keeps what the preview showed. Undo brings it back."
+            )
+        return False
+
+    def _take(self, job: DenoiseJob, outcome: DenoiseOutcome | None, error: Exception | None) -> None:
+        """Show an answer of the thread; with an error, the original and a sentence."""
+        if error is None and outcome is not None:
+            self.message = ""
+            self._outcome = job, outcome
+            self._show(mesh_bridge.with_moved(self._job.surface, outcome.vertices))
+            return
+        if not isinstance(error, ValueError):
+            traceback.print_exception(error)
+        self._outcome = None
+        self.message = str(error) if isinstance(error, ValueError) else f"An unexpected error: {error!r}."
+        self._show(self._original)
+
+    def _show(self, positions: NDArray[np.float32]) -> None:
+        """Write positions to the mesh."""
+        obj = self.find_object()
+        assert obj is not None  # `tick` has looked
+        mesh_bridge.show_positions(obj.data, positions)
+        self._shown = positions
+
+
+def _compute(job: DenoiseJob, should_stop: Callable[[], bool]) -> DenoiseOutcome:
+    """Denoise; on the thread."""
+    return compute(job, should_stop=should_stop)
+
+
+def begin_preview(obj: bpy.types.Object, settings: DenoiseSettings, options: RegionOptions) -> PreviewSession:
+    """Start a preview; `tick` asks for the first result.
+
+    Raises
+    ------
+    ValueError
+        In one sentence, if there can be none of this object.
+    """
+    if obj.mode != "OBJECT":
+        raise ValueError(f"‘{obj.name}’: the preview needs Object Mode; leave the mode first.")
+    job = read_job(obj, settings, IN_PLACE, options)
+    if obj.data.shape_keys is not None:
+        raise ValueError(f"‘{obj.name}’ has shape keys, of which there is no preview; press Denoise.")
+    n_vertices = job.surface.n_vertices
+    if n_vertices > MOST_VERTICES:
+        raise ValueError(
+            f"‘{obj.name}’ has {n_vertices:,} vertices, too many for a preview, which goes up to "
+            f"{MOST_VERTICES:,}; press Denoise."
+        )
+    return PreviewSession(obj, job, options)

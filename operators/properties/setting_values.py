@@ -1,0 +1,151 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""From Blender properties to settings and back, and how a preset and the fields keep in step.
+
+Nothing here refers to bpy. Blender 4.2 never frees a PropertyGroup class, so that what its update functions
+refer to outlives Python, and the module bpy crashes when it does.
+"""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from typing import TYPE_CHECKING, Any
+
+from ...core.settings import DEFAULT_PRESET, PRESETS, DenoiseSettings
+from .region_values import REGION_NAMES, as_typed
+
+if TYPE_CHECKING:
+    import bpy
+
+CUSTOM = "CUSTOM"
+
+DEFINING = ("method", "frame", "stencil", "shrinkage")
+"""The settings that make the algorithm; one that is used and differs from the preset's makes it a custom
+combination."""
+
+TUNED_NAMES = ("lambda_", "mu", "iterations")
+"""The settings that the tuning NOISE replaces by values of its own."""
+
+SETTING_NAMES = tuple(item.name for item in fields(DenoiseSettings))
+PROPERTY_NAMES = ("preset", *SETTING_NAMES)
+
+FRAME_NAMES = ("frame", "stencil", "levels", "boundary")
+"""The settings of the frame transform itself."""
+
+_INFO = {item.name: item.metadata["info"] for item in fields(DenoiseSettings)}
+
+# True while a preset fills the fields, so that their own updates do not answer.
+_is_filling = False
+
+
+def has_effect(method: str, name: str) -> bool:
+    """Tell whether a setting is used by a method."""
+    return name not in _INFO or _INFO[name].has_effect(method)
+
+
+def is_replaced(method: str, tuning: str, name: str) -> bool:
+    """Tell whether a method uses a setting but takes its value from the measured noise."""
+    return tuning == "NOISE" and has_effect(method, "tuning") and name in TUNED_NAMES
+
+
+def fill(properties: Any, settings: DenoiseSettings, keep: tuple[str, ...] = ()) -> None:
+    """Write settings to properties, and leave the preset's name as it is.
+
+    Parameters
+    ----------
+    properties : SettingsMixin
+        Scene settings or an operator; changed.
+    settings : DenoiseSettings
+        The values.
+    keep : tuple of str
+        Names that are not written.
+    """
+    global _is_filling
+    outer, _is_filling = _is_filling, True
+    try:
+        for name in SETTING_NAMES:
+            if name not in keep:
+                setattr(properties, name, getattr(settings, name))
+    finally:
+        _is_filling = outer
+
+
+def to_settings(properties: Any) -> DenoiseSettings:
+    """Return the settings that properties stand for.
+
+    Parameters
+    ----------
+    properties : SettingsMixin
+        Scene settings or an operator. Values that were never set are those of the preset,
+        of a custom combination those of the default preset.
+
+    Raises
+    ------
+    ValueError
+        In one sentence, if a value is not allowed.
+    """
+    rna = getattr(properties, "properties", properties)
+    changes = {name: as_typed(getattr(rna, name)) for name in SETTING_NAMES if rna.is_property_set(name)}
+    base = PRESETS[rna.preset if rna.preset != CUSTOM else DEFAULT_PRESET].settings
+    return base.with_changes(**changes)
+
+
+def replace_lost(properties: Any) -> None:
+    """Take the default engine where a file names one that is gone, with the values of the preset."""
+    if not properties.method:
+        preset = properties.preset if properties.preset != CUSTOM else DEFAULT_PRESET
+        fill(properties, PRESETS[preset].settings, keep=("threads",))
+
+
+def copy_settings(source: Any, target: Any) -> None:
+    """Copy all properties of scene settings to an operator, so that the operator needs nothing else."""
+    copy_values(source, target, ("preset", "output", *REGION_NAMES))
+    settings = to_settings(source)
+    for name in SETTING_NAMES:
+        write_quietly(target, name, getattr(settings, name))
+
+
+def copy_frame_settings(source: Any, target: Any, names: tuple[str, ...] = FRAME_NAMES) -> None:
+    """Copy the settings of the frame transform from scene settings to an operator."""
+    settings = to_settings(source)
+    for name in names:
+        write_quietly(target, name, getattr(settings, name))
+
+
+def copy_values(source: Any, target: Any, names: tuple[str, ...]) -> None:
+    """Copy properties by name, from scene properties to an operator."""
+    for name in names:
+        write_quietly(target, name, getattr(source, name))
+
+
+def write_quietly(target: Any, name: str, value: Any) -> None:
+    """Write a property of an operator from a panel, without calling its update function.
+
+    Blender draws all windows again after an update, so that a panel that causes one is drawn forever.
+    """
+    if not hasattr(target, "bl_rna"):
+        setattr(target, name, value)
+        return
+    prop = target.bl_rna.properties[name]
+    if prop.type == "ENUM":
+        value = prop.enum_items[value].value
+    # Blender 5 keeps what its own properties hold apart from the custom ones.
+    is_apart = hasattr(target, "bl_system_properties_get")
+    store = target.bl_system_properties_get(do_create=True) if is_apart else target
+    store[name] = value
+
+
+def follow_preset(self: Any, _context: bpy.types.Context) -> None:
+    """Fill the fields from the preset; the number of threads is the machine's matter, not the preset's."""
+    if self.preset != CUSTOM and not _is_filling:
+        fill(self, PRESETS[self.preset].settings, keep=("threads",))
+
+
+def leave_preset(self: Any, _context: bpy.types.Context) -> None:
+    """Call the combination custom once it is no longer the preset's."""
+    if _is_filling or self.preset == CUSTOM:
+        return
+    settings = PRESETS[self.preset].settings
+    names = [name for name in DEFINING if has_effect(settings.method, name)]
+    if any(getattr(self, name) != getattr(settings, name) for name in names):
+        self.preset = CUSTOM

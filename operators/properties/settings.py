@@ -1,0 +1,117 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Blender properties for the settings of a run, generated from the dataclass in `core.settings`."""
+
+from collections.abc import Iterable
+from dataclasses import Field, fields
+from typing import Any
+
+import bpy
+
+from ...core.settings import DEFAULT_PRESET, PRESETS, DenoiseSettings, SettingInfo
+from .output_choices import IN_PLACE, OUTPUTS
+from .region_settings import RegionMixin
+from .setting_values import CUSTOM, DEFINING, FRAME_NAMES, follow_preset, leave_preset
+
+FIELDS = {item.name: item for item in fields(DenoiseSettings)}
+"""The settings by name."""
+
+_DEFAULTS = PRESETS[DEFAULT_PRESET].settings
+
+_NUMBERED = {
+    "preset": (
+        "AUTO",
+        "TRI_1",
+        "TRI_2",
+        "QUAD_1",
+        "QUAD_2",
+        "FREE_FORM",
+        "PRISMATIC",
+        "BILATERAL",
+        CUSTOM,
+        "POSITIONS",
+        "MARCHING_CUBES",
+        "SCULPT",
+    ),
+    "method": ("POSITIONS", "NORMALS", "BILATERAL", "AUTO"),
+}
+"""Lists whose items are shown in another order than they came in. Files hold the numbers of items, so that
+new ones go to the end here, and those that are gone keep their place."""
+
+
+def _items(name: str, choices: Iterable[tuple[str, str, str]]) -> list[tuple[str, str, str, int]]:
+    """Return the items of a list with their numbers."""
+    items = list(choices)
+    order = _NUMBERED.get(name) or [item[0] for item in items]
+    return [(*item, order.index(item[0])) for item in items]
+
+
+def _preset_property() -> Any:
+    """Return the property that names a preset."""
+    items = [(identifier, preset.label, preset.description) for identifier, preset in PRESETS.items()]
+    items.append((CUSTOM, "Custom", "Your own combination"))
+    return bpy.props.EnumProperty(
+        name="Preset",
+        description="What the mesh is or which algorithm to use; choosing one sets all values below",
+        items=_items("preset", items),
+        default=DEFAULT_PRESET,
+        options=set(),
+        update=follow_preset,
+    )
+
+
+def setting_property(item: Field, **options: Any) -> Any:
+    """Return the Blender property of a dataclass field; `options` add to those that the field gives."""
+    info: SettingInfo = item.metadata["info"]
+    common: dict[str, Any] = {
+        "name": f"{info.label} {info.symbol}".strip(),
+        "description": info.description,
+        "default": getattr(_DEFAULTS, item.name),
+        "options": set(),
+    } | options
+    if info.choices:
+        return bpy.props.EnumProperty(items=_items(item.name, info.choices), **common)
+    common |= {"min": info.minimum, "max": info.maximum}
+    if info.soft_maximum is not None:
+        common["soft_max"] = info.soft_maximum
+    if item.type == "int":
+        return bpy.props.IntProperty(**common)
+    end = info.maximum if info.soft_maximum is None else info.soft_maximum
+    return bpy.props.FloatProperty(precision=4 if end <= 0.1 else 3, step=1 if end <= 1.0 else 10, **common)
+
+
+class SettingsMixin:
+    """The preset and a property for each field of `DenoiseSettings`; for scene settings and operators."""
+
+    __annotations__ = {"preset": _preset_property()} | {
+        name: setting_property(item, **({"update": leave_preset} if name in DEFINING else {}))
+        for name, item in FIELDS.items()
+    }
+
+
+class FrameMixin:
+    """The frame without its levels and without a preset; for operators."""
+
+    __annotations__ = {name: setting_property(FIELDS[name]) for name in FRAME_NAMES if name != "levels"}
+
+
+class LevelsMixin:
+    """The number of levels; for operators."""
+
+    __annotations__ = {"levels": setting_property(FIELDS["levels"])}
+
+
+class OutputMixin:
+    """Where the result goes; for scene settings and operators. Not a part of presets."""
+
+    output: bpy.props.EnumProperty(
+        name="Output",
+        description="Where the denoised surface goes",
+        items=[tuple(choice) for choice in OUTPUTS],
+        default=IN_PLACE,
+        options=set(),
+    )
+
+
+class FrameletSettings(SettingsMixin, OutputMixin, RegionMixin, bpy.types.PropertyGroup):
+    """The settings that the sidebar shows, stored with the scene."""

@@ -1,0 +1,240 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A run over several objects: read all, compute on any thread, write all. No user interface.
+
+`begin`, `start`, `tick` and `finish`, or `cancel` in between, are plain calls on the main thread; the modal
+operator is one way to make them. Nothing is written before `finish`, and nothing if anything was changed
+meanwhile.
+"""
+
+from __future__ import annotations
+
+import traceback
+from enum import Enum
+from typing import TYPE_CHECKING, NamedTuple
+
+from bpy.app.translations import pgettext_iface as iface_
+
+from .denoise_job import DenoiseJob, DenoiseOutcome, MeasuredReport, compute
+from .denoise_object import read_job, write_outcome
+from .run_guard import Mark, find_object, mark_of, what_changed
+from .worker import Worker
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    import bpy
+
+    from ...core.settings import DenoiseSettings
+    from ..properties.region_options import RegionOptions
+
+UNCHANGED = "nothing was changed"
+
+
+class State(Enum):
+    """How a run stands."""
+
+    READING = "it was read, and waits for `start`"
+    RUNNING = "it is computing"
+    READY = "it is computed, and waits for `finish`"
+    FINISHED = "it is written"
+    CANCELED = "it was canceled by the user"
+    FAILED = "it came to nothing; `reason` says why"
+
+
+class Written(NamedTuple):
+    """An object that was denoised, the object that has the result, and the measured report."""
+
+    original: bpy.types.Object
+    obj: bpy.types.Object
+    measured: MeasuredReport
+
+
+class DenoiseRun:
+    """One run; `begin_run` makes it.
+
+    Attributes
+    ----------
+    state : State
+        Where it is.
+    failures : list of str
+        Sentences about objects that could not be denoised.
+    reason : str
+        If the run failed, one sentence that says why.
+    """
+
+    def __init__(self, jobs: list[tuple[Mark, DenoiseJob]], failures: list[str]) -> None:
+        self.state = State.READING
+        self.failures = failures
+        self.reason = ""
+        self._jobs = jobs
+        self._at = 0
+        self._is_touched = self._is_started = False
+        self._worker: Worker[list[DenoiseOutcome | str]] = Worker(self._compute)
+
+    @property
+    def fraction(self) -> float:
+        """Share of the work that is done, from 0 to 1."""
+        return self._worker.fraction
+
+    @property
+    def is_active(self) -> bool:
+        """Whether something is still to come."""
+        return self.state in {State.READING, State.RUNNING, State.READY}
+
+    @property
+    def text(self) -> str:
+        """What is being done, for people."""
+        name = self._jobs[self._at][1].name
+        if len(self._jobs) == 1:
+            return iface_("Denoising ‘{name}’").format(name=name)
+        text = iface_("Denoising ‘{name}’ ({number} of {total})")
+        return text.format(name=name, number=self._at + 1, total=len(self._jobs))
+
+    def start(self) -> None:
+        """Begin to compute on a thread."""
+        self.state = State.RUNNING
+        self._worker.start()
+        self._is_started = True
+
+    def run_here(self, progress: Callable[[float], None] | None = None) -> None:
+        """Compute on the calling thread, and call `progress(fraction)` meanwhile."""
+        self.state, self._is_started = State.RUNNING, True
+        if progress is not None:
+            self._progress = progress
+        self._worker.run_here()
+        self._take_results()
+
+    def _progress(self, fraction: float) -> None:
+        """Do nothing with the progress; the thread's is read from `fraction`."""
+
+    def touch(self, touched: set[int]) -> None:
+        """Note the session numbers of objects and meshes that may have been edited.
+
+        If they are those of the run, the next tick looks in detail.
+        """
+        if any(not touched.isdisjoint((mark.object_uid, mark.mesh_uid)) for mark, _ in self._jobs):
+            self._is_touched = True
+
+    def tick(self) -> State:
+        """Look whether the run is done, and whether its objects are still what was read. Call it often."""
+        if self.state is not State.RUNNING:
+            return self.state
+        is_done = self._worker.is_done
+        in_detail = is_done or self._is_touched
+        self._is_touched = False
+        for mark, job in self._jobs:
+            change = what_changed(mark, job.surface, in_detail=in_detail)
+            if change is not None:
+                self.drop(change)
+                return self.state
+        if is_done:
+            self._take_results()
+        return self.state
+
+    def cancel(self) -> None:
+        """Give up on behalf of the user; nothing is written. The thread ends a little later."""
+        if self.is_active:
+            self.state = State.CANCELED
+            self._worker.stop()
+
+    def drop(self, change: str) -> None:
+        """Give up because of what happened meanwhile, as in “‘Cube’ was deleted”."""
+        if self.is_active:
+            self._fail(f"{change} while Framelet was running, so that the run was dropped; {UNCHANGED}.")
+
+    def wait(self, seconds: float | None = None) -> bool:
+        """Wait for the thread, at most so long; return whether it has ended."""
+        return not self._is_started or self._worker.wait(seconds)
+
+    def finish(self) -> list[Written]:
+        """Write the results of a run that is ready, and return what was done."""
+        if self.state is not State.READY:
+            raise RuntimeError(f"The run cannot be finished: {self.state.value}.")
+        self.state = State.FINISHED
+        written = []
+        for (mark, job), outcome in zip(self._jobs, self._worker.result(), strict=True):
+            if isinstance(outcome, DenoiseOutcome):
+                obj = find_object(mark)
+                assert obj is not None  # `tick` has looked, and nothing happened since
+                written.append(Written(obj, write_outcome(obj, job, outcome), outcome.measured))
+        return written
+
+    def _take_results(self) -> None:
+        """Go over from the thread's results to READY, or FAILED if there are none."""
+        try:
+            outcomes = self._worker.result()
+        except MemoryError:
+            self._fail(f"There is not enough memory for this mesh; {UNCHANGED}.")
+            return
+        except Exception as error:
+            traceback.print_exception(error)
+            kind = type(error).__name__
+            self._fail(
+                f"An unexpected error stopped the run ({kind}: {error}); {UNCHANGED}. Please report it."
+            )
+            return
+        self.failures += [outcome for outcome in outcomes if isinstance(outcome, str)]
+        if any(isinstance(outcome, DenoiseOutcome) for outcome in outcomes):
+            self.state = State.READY
+        else:
+            self._fail(" ".join(self.failures))
+
+    def _fail(self, reason: str) -> None:
+        self.state, self.reason = State.FAILED, reason
+        self._worker.stop()
+
+    def _compute(self, worker: Worker[list[DenoiseOutcome | str]]) -> list[DenoiseOutcome | str]:
+        """Carry out the jobs one after the other; the sentence of an error stands for an outcome."""
+        sizes = [job.surface.n_vertices for _, job in self._jobs]
+        outcomes: list[DenoiseOutcome | str] = []
+        for number, (_, job) in enumerate(self._jobs):
+            self._at = number
+
+            def advance(share: float, change: float, number: int = number) -> bool:
+                fraction = (sum(sizes[:number]) + share * sizes[number]) / sum(sizes)
+                self._progress(fraction)
+                return worker.advance(fraction, change)
+
+            try:
+                outcomes.append(compute(job, advance, worker.should_stop))
+            except ValueError as error:
+                outcomes.append(str(error))
+            if worker.should_stop():
+                break
+        return outcomes
+
+
+def begin_run(
+    objects: Iterable[bpy.types.Object],
+    settings: DenoiseSettings,
+    output: str = "IN_PLACE",
+    options: RegionOptions | None = None,
+) -> DenoiseRun:
+    """Read all that a run needs.
+
+    Parameters
+    ----------
+    objects : iterable of bpy.types.Object
+        One for each mesh.
+    settings : DenoiseSettings
+        What to do with each.
+    output : str
+        One of `output_choices.OUTPUTS`.
+    options : RegionOptions, optional
+        What limits the run.
+
+    Raises
+    ------
+    ValueError
+        With a sentence for each object, if none can be denoised.
+    """
+    jobs, failures = [], []
+    for obj in objects:
+        try:
+            jobs.append((mark_of(obj), read_job(obj, settings, output, options)))
+        except ValueError as error:
+            failures.append(str(error))
+    if not jobs:
+        raise ValueError(" ".join(failures))
+    return DenoiseRun(jobs, failures)

@@ -1,0 +1,37 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The subpanel Output: where the result goes."""
+
+from __future__ import annotations
+
+import bpy
+from bpy.app.translations import pgettext_n as n_
+
+from ...operators.properties.output_choices import NEW_OBJECT, SHAPE_KEY
+from .layouts import FrameletPanel, settings_column
+
+_HINTS = {
+    SHAPE_KEY: n_("Its value is the amount"),
+    NEW_OBJECT: n_("The original stays as it is"),
+}
+
+
+class VIEW3D_PT_framelet_output(FrameletPanel, bpy.types.Panel):
+    """Where the denoised surface goes."""
+
+    bl_label = "Output"
+    bl_parent_id = "VIEW3D_PT_framelet"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the choice and, once an output is chosen, what it is good for."""
+        settings = context.scene.framelet
+        column = settings_column(self.layout)
+        column.prop(settings, "output")
+        if settings.output in _HINTS:
+            column.label(text=_HINTS[settings.output], icon="INFO")
+            if context.mode != "OBJECT":
+                column.label(text="Needs Object Mode", icon="ERROR")
+
+
+classes = (VIEW3D_PT_framelet_output,)

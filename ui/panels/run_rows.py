@@ -1,0 +1,37 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The rows below the button Denoise: how far a run is, and the live preview."""
+
+from __future__ import annotations
+
+import bpy
+from bpy.app.translations import pgettext_iface as iface_
+
+from ...operators.denoise import OBJECT_OT_framelet_cancel
+from ...operators.preview import OBJECT_OT_framelet_apply_preview, OBJECT_OT_framelet_preview
+from ...operators.preview.current_preview import current_preview, preview_message
+from ...operators.run.current_run import current_run
+from ...operators.run.run_display import progress_text
+
+
+def draw_progress(layout: bpy.types.UILayout) -> None:
+    """Draw a bar and a button that cancels, as long as a run is going on."""
+    run = current_run()
+    if run is None:
+        return
+    row = layout.row(align=True)
+    row.progress(factor=run.fraction, text=progress_text(run))
+    row.operator(OBJECT_OT_framelet_cancel.bl_idname, text="", icon="X")
+
+
+def draw_preview(layout: bpy.types.UILayout) -> None:
+    """Draw the toggle of the preview and, while it is on, the button that keeps it."""
+    session = current_preview()
+    row = layout.row(align=True)
+    row.operator(OBJECT_OT_framelet_preview.bl_idname, icon="HIDE_OFF", depress=session is not None)
+    if session is not None:
+        row.operator(OBJECT_OT_framelet_apply_preview.bl_idname, icon="CHECKMARK")
+        if not session.is_current and not session.message:
+            layout.label(text=iface_("Computing {name}").format(name=f"‘{session.name}’"), icon="SORTTIME")
+    if preview_message():
+        layout.label(text=preview_message(), translate=False, icon="INFO")
