@@ -11,8 +11,10 @@ import numpy as np
 from numpy.typing import DTypeLike
 
 from .blocks import Blocks
+from .limits.placed import Placed
+from .mesh.connectivity import Connectivity
 from .mesh.surface_mesh import SurfaceMesh
-from .prepared import Prepared, prepare_again
+from .prepared import Prepared, prepare, prepare_again
 from .settings import DenoiseSettings
 
 MAX_BYTES = 2**30
@@ -65,6 +67,46 @@ class PreparationCache:
         self._kept.clear()
 
 
+def prepared_for(
+    placed: Placed,
+    settings: DenoiseSettings,
+    connectivity: Connectivity | None,
+    dtype: DTypeLike,
+    should_stop: Callable[[], bool] | None,
+    known: Prepared | PreparationCache | None,
+) -> Prepared:
+    """Return the mesh that a region is placed on, ready for work: made anew, or what is known of it.
+
+    Parameters
+    ----------
+    placed : Placed
+        The mesh, which may be welded.
+    settings, connectivity, dtype, should_stop
+        See `prepare`; of a welded mesh the neighborhoods are others.
+    known : Prepared or PreparationCache or None
+        What was prepared before, or what keeps it.
+
+    Returns
+    -------
+    Prepared
+
+    Raises
+    ------
+    ValueError
+        If what was prepared is for another mesh or other stencils.
+    """
+    surface = placed.surface
+    if placed.weld is not None:
+        connectivity = None
+    if isinstance(known, PreparationCache):
+        return known.prepare(surface, settings, dtype, should_stop)
+    if known is None:
+        return prepare(surface, settings, connectivity=connectivity, dtype=dtype, should_stop=should_stop)
+    if not known.fits(surface, settings, dtype):
+        raise ValueError("This was prepared for another mesh or other stencils; prepare it again.")
+    return known
+
+
 def bytes_of(owner: Any) -> int:
     """Return how many bytes the arrays take that belong to an object and to the objects it holds."""
     sizes: dict[int, int] = {}
@@ -84,6 +126,6 @@ def _measure(item: Any, sizes: dict[int, int], seen: set[int]) -> None:
     elif isinstance(item, (list, tuple)):
         for part in item:
             _measure(part, sizes, seen)
-    elif type(item).__module__.startswith(__name__.partition(".denoising")[0]):
+    elif type(item).__module__.startswith(__name__.rpartition(".")[0]):
         for part in vars(item).values() if hasattr(item, "__dict__") else ():
             _measure(part, sizes, seen)

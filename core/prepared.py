@@ -8,7 +8,7 @@ It depends on the mesh and on the settings that choose the stencils, not on λ, 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
 import numpy as np
@@ -16,14 +16,17 @@ from numpy.typing import DTypeLike, NDArray
 
 from .blocks import Blocks
 from .learned.engine import FaceEngine
-from .limits.constraints import Corners, find_corners
+from .limits.constraints import Corners, find_constraints, find_corners
 from .limits.face_watch import FaceState
+from .limits.lines import find_lines, smoothing_of
+from .limits.placed import Placed
 from .memory import give_back
 from .mesh.checks import check_positions, check_surface
 from .mesh.connectivity import Connectivity, connect
 from .mesh.locality import Reordering, is_scattered, reorder, spatial_order
 from .mesh.normalization import normalize
 from .mesh.surface_mesh import SurfaceMesh
+from .methods.problem import Callback, Problem
 from .methods.shrinkage import SEPARABLE
 from .settings import DEFAULT_PRESET, PRESETS, DenoiseSettings
 from .transform import FrameTransform, choose_frame, make_transform
@@ -95,6 +98,58 @@ class Prepared:
     ) -> bool:
         """Tell whether this can be used for a mesh whose faces and edges are known to be the same."""
         return self.key == _key(settings, dtype) and _is_same(self.surface.vertices, surface.vertices)
+
+    def problem(
+        self, placed: Placed, settings: DenoiseSettings, blocks: Blocks, callback: Callback | None
+    ) -> Problem:
+        """Return what a method is given; the region goes by the numbers of `ordered`."""
+        constraints = find_constraints(
+            self.ordered, self.connectivity, settings, placed.movable, self.noisy.dtype, self.corners
+        )
+        problem = Problem(
+            noisy=self.noisy,
+            given=self.noisy,
+            surface=self.ordered,
+            connectivity=self.connectivity,
+            edge=self.edge,
+            settings=settings,
+            constraints=constraints,
+            blocks=blocks,
+            transform=self.transform,
+            engine=self.engine,
+            callback=callback,
+        )
+        if placed.feature_edges is None:
+            return problem
+        lines = find_lines(self.noisy, placed.feature_edges, constraints.pinned)
+        noisy = self.noisy.copy()
+        noisy[:, lines.inner] += smoothing_of(self.noisy, lines, _line_strength(settings)).astype(noisy.dtype)
+        return replace(
+            problem,
+            noisy=noisy,
+            constraints=constraints.with_pinned(lines.vertices),
+            line_vertices=len(lines.vertices),
+        )
+
+    def motion(self, points: NDArray[np.floating], blocks: Blocks) -> NDArray[np.float64]:
+        """Return the displacements, shape (3, N), in scene units, to points of normalized space."""
+        motion = np.empty(points.shape)
+
+        def kernel(start: int, stop: int) -> None:
+            part = motion[:, start:stop]
+            part[:] = points[:, start:stop]
+            part -= self.noisy[:, start:stop]
+            part *= self.edge
+
+        blocks.run(kernel, points.shape[1])
+        return motion
+
+    def known_faces(self, placed: Placed) -> list[FaceState]:
+        """Return the list that what is found out about the faces of the input is kept in.
+
+        What is known of the faces is known of a mesh that moves as it is.
+        """
+        return self.faces if placed.weld is None else []
 
 
 def prepare(
@@ -244,3 +299,12 @@ def _is_same(first: NDArray, second: NDArray, blocks: Blocks | None = None) -> b
         return np.array_equal(first[start:stop], second[start:stop])
 
     return all((blocks or Blocks(1)).sized(COMPARED_AT_ONCE).run(kernel, len(first)))
+
+
+def _line_strength(settings: DenoiseSettings) -> float:
+    """Return how much of the noise on feature lines is removed: nothing where nothing else is."""
+    if settings.method == "AUTO":
+        return settings.strength
+    if settings.method == "POSITIONS" and settings.tuning == "GIVEN" and settings.lambda_ == 0.0:
+        return 0.0
+    return 1.0

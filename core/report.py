@@ -4,19 +4,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
+from time import perf_counter
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .limits.finish import Finished
+from .limits.placed import Placed
 from .mesh.surface_mesh import SurfaceMesh
+from .methods.problem import Problem, Solution
 from .noise import NoiseEstimate
 from .settings import DenoiseSettings
-
-Callback = Callable[[float, float], bool]
-"""`callback(fraction, change)`: share of the work done, 0 to 1, and rms motion of the last iteration in mean
-edge lengths; returns True to stop."""
 
 
 @dataclass(frozen=True)
@@ -71,7 +70,7 @@ class DenoiseResult:
     report: DenoiseReport
 
 
-def stopped_report(surface: SurfaceMesh, settings: DenoiseSettings, seconds: float) -> DenoiseReport:
+def stopped_report(surface: SurfaceMesh, settings: DenoiseSettings, began: float) -> DenoiseReport:
     """Return the report of a run that was stopped before anything was known: nothing moved."""
     return DenoiseReport(
         n_vertices=surface.n_vertices,
@@ -88,6 +87,76 @@ def stopped_report(surface: SurfaceMesh, settings: DenoiseSettings, seconds: flo
         boundary_vertices=0,
         non_manifold_vertices=0,
         loose_vertices=0,
-        seconds=seconds,
+        seconds=perf_counter() - began,
         settings=settings,
+    )
+
+
+def account(
+    placed: Placed,
+    vertices: NDArray[np.floating],
+    finished: Finished,
+    problem: Problem,
+    solution: Solution,
+    began: float,
+) -> DenoiseReport:
+    """Return the report of a finished run.
+
+    Parameters
+    ----------
+    placed : Placed
+        The mesh that was given.
+    vertices : ndarray, shape (N, 3)
+        Its new positions.
+    finished : Finished
+        What was limited and mended.
+    problem : Problem
+        What the method was given.
+    solution : Solution
+        What it found.
+    began : float
+        Time of `time.perf_counter` at the start.
+
+    Returns
+    -------
+    DenoiseReport
+    """
+    surface, watch = placed.original, finished.watch
+    connectivity = watch.carrier.connectivity
+
+    def measure(start: int, stop: int) -> tuple[int, float, float]:
+        moved = vertices[start:stop].astype(np.float64) - surface.vertices[start:stop]
+        moved *= moved
+        squares = moved[:, 0] + moved[:, 1] + moved[:, 2]
+        return int(np.count_nonzero(squares)), float(squares.sum()), float(squares.max())
+
+    n_moved, squares, largest = zip(*problem.blocks.run(measure, surface.n_vertices), strict=True)
+    volume_change = None
+    if connectivity.is_closed and watch.before.volume:
+        volume_change = (watch.volume - watch.before.volume) / watch.before.volume
+    return DenoiseReport(
+        n_vertices=surface.n_vertices,
+        n_faces=surface.n_faces,
+        n_moved=sum(n_moved),
+        iterations=solution.iterations,
+        is_stopped=solution.is_stopped,
+        mean_edge_length=watch.carrier.edge,
+        displacement_rms=float(np.sqrt(sum(squares) / surface.n_vertices)),
+        displacement_max=float(np.sqrt(max(largest))),
+        flipped_faces=watch.n_turned,
+        folded_faces=int(np.count_nonzero(watch.is_folded)),
+        folded_faces_before=int(np.count_nonzero(watch.before.is_folded)),
+        degenerate_faces=int(np.count_nonzero(watch.is_degenerate)),
+        degenerate_faces_before=int(np.count_nonzero(watch.before.is_degenerate)),
+        damped_vertices=finished.n_damped,
+        volume_change=volume_change,
+        irregular_vertices=int(np.count_nonzero(connectivity.is_irregular())),
+        boundary_vertices=int(np.count_nonzero(connectivity.is_boundary)),
+        non_manifold_vertices=int(np.count_nonzero(connectivity.is_non_manifold)),
+        loose_vertices=int(np.count_nonzero(connectivity.is_loose)),
+        seconds=perf_counter() - began,
+        settings=solution.settings,
+        noise=solution.noise,
+        line_vertices=problem.line_vertices,
+        welded_vertices=0 if placed.weld is None else placed.weld.n_merged,
     )

@@ -4,25 +4,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
-
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from .mesh_io import mesh_bridge
 from .preview import targets
 from .properties.scene_units import length_in_scene, noise_text
-from .reports.filled_reports import fill_estimate
-
-if TYPE_CHECKING:
-    from ..core import NoiseEstimate
-
-
-class MeasuredNoise(NamedTuple):
-    """The noise of an object, whose lengths are in object space, and the scale that makes scene units."""
-
-    noise: NoiseEstimate
-    scale: float
+from .reports.filled_reports import MeasuredNoise, fill_estimate
 
 
 def estimate_object_noise(obj: bpy.types.Object) -> MeasuredNoise:

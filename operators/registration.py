@@ -16,8 +16,8 @@ from .denoise import OBJECT_OT_framelet_cancel, OBJECT_OT_framelet_denoise
 from .equalize import OBJECT_OT_framelet_equalize
 from .estimate_noise import OBJECT_OT_framelet_estimate_noise
 from .heat_map import OBJECT_OT_framelet_heat_map, OBJECT_OT_framelet_hide_colors
+from .live_preview import OBJECT_OT_framelet_apply_preview, OBJECT_OT_framelet_preview
 from .mesh_io import mesh_facts
-from .preview import OBJECT_OT_framelet_apply_preview, OBJECT_OT_framelet_preview
 from .properties.band_settings import FrameletBands, FrameletEqualizer
 from .properties.presets import OBJECT_OT_framelet_preset_add
 from .properties.settings import FrameletSettings

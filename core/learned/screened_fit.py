@@ -248,7 +248,8 @@ class ScreenedFit:
         distance = np.sqrt((step * step).sum(axis=1))[:, None]
         usual = rings.averaged(distance.copy(), OUTLIER_AVERAGES)
         usual = rings.averaged(np.minimum(distance, 2 * usual), OUTLIER_AVERAGES)
-        is_out = (distance > OUTLIER * usual)[:, 0]
+        # A mean of zeros is zero up to rounding only, also below.
+        is_out = (distance > np.maximum(OUTLIER * usual, 0))[:, 0]
         if is_free is not None:
             is_out &= rings.inward(is_free)
         if np.count_nonzero(is_out) < LEAST_OUTLIERS * len(is_out):

@@ -16,9 +16,11 @@ from numpy.typing import NDArray
 
 from ..blocks import Blocks
 from ..mesh.carrier import Carrier
+from .constraints import Constraints
 from .face_watch import FaceState, FaceWatch
 from .folds import take_back
 from .motion import Motion
+from .placed import Placed
 from .region import Region
 from .volume import volume_offset
 
@@ -37,12 +39,11 @@ class Finished(NamedTuple):
 def finish(
     found: NDArray[np.float64],
     carrier: Carrier,
+    placed: Placed,
     region: Region,
-    movable: NDArray[np.bool_] | None,
-    weights: NDArray[np.float64] | None,
-    pinned: NDArray[np.intp],
+    constraints: Constraints,
     blocks: Blocks,
-    before: FaceState | None = None,
+    known: list[FaceState],
 ) -> Finished:
     """Bring displacements within the limits of a region, and mend what they do.
 
@@ -52,25 +53,24 @@ def finish(
         Displacements of the vertices of the mesh that was worked on, in scene units; changed.
     carrier : Carrier
         That mesh, and the one that moves.
+    placed : Placed
+        What the region says about its vertices.
     region : Region
         The limits.
-    movable : ndarray, shape (n,), bool, or None
-        Vertices of the mesh that was worked on that may move; None for all.
-    weights : ndarray, shape (n,), or None
-        Shares of their motion.
-    pinned : ndarray, shape (p,), int
-        Vertices of it that take no part in the offset for the volume.
+    constraints : Constraints
+        Vertices that are pinned take no part in the offset for the volume.
     blocks : Blocks
         Threads to work on.
-    before : FaceState, optional
-        The faces of the input, if they are known already, see `FaceWatch`.
+    known : list of FaceState
+        The faces of the input, if they are known already, see `FaceWatch`; afterwards they are.
 
     Returns
     -------
     Finished
     """
-    motion = Motion(found, carrier, region, movable, weights, pinned)
-    watch = FaceWatch(carrier, blocks, before)
+    motion = Motion(found, carrier, region, placed.movable, placed.weights, constraints.pinned)
+    watch = FaceWatch(carrier, blocks, known[0] if known else None)
+    known[:] = [watch.before]
     shares = np.ones(found.shape[1])
     vertices = _settled(motion.at(), shares, watch, region, blocks)
     if not (region.keep_volume and carrier.connectivity.is_closed):

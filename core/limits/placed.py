@@ -116,6 +116,8 @@ def place(region: Region, surface: SurfaceMesh, movable: NDArray[np.bool_] | Non
         In one sentence, if the region does not fit the mesh, if nothing may move, or if nothing is left of
         the welded mesh.
     """
+    if movable is not None:
+        _check_movable(movable, surface.n_vertices)
     region.check(surface.n_vertices)
     weights = None
     if region.weights is not None:
@@ -151,3 +153,14 @@ def _new_numbers(reordering: Reordering) -> NDArray[np.intp]:
     numbers = np.empty(len(reordering.vertex_order), np.intp)
     numbers[reordering.vertex_order] = np.arange(len(numbers))
     return numbers
+
+
+def _check_movable(movable: NDArray[np.bool_], n_vertices: int) -> None:
+    """Raise ValueError unless the mask fits the mesh and selects something."""
+    if movable.shape != (n_vertices,) or movable.dtype != bool:
+        raise ValueError(
+            f"The mask of movable vertices is {movable.dtype} of shape {movable.shape}; "
+            f"expected bool ({n_vertices},)."
+        )
+    if not movable.any():
+        raise ValueError("No vertex may move; select at least one.")

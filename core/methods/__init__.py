@@ -1,3 +1,19 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The methods of denoising: one file for each idea."""
+"""Ways to move the vertices of a noisy surface: one file each, one signature."""
+
+from collections.abc import Callable
+
+from .bilateral import bilateral_filter
+from .learned_shrinkage import learned_shrinkage
+from .positions import shrink_positions
+from .problem import Problem, Solution
+
+METHODS: dict[str, Callable[[Problem], Solution]] = {
+    "AUTO": learned_shrinkage,
+    "POSITIONS": shrink_positions,
+    "BILATERAL": bilateral_filter,
+}
+"""The methods by the names that settings have for them."""
+
+__all__ = ["METHODS", "Problem", "Solution"]

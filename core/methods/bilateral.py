@@ -10,13 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
-from ..limits.constraints import Constraints
-from ..mesh.connectivity import Connectivity
 from ..mesh.geometry import vertex_normals
 from ..mesh.neighborhoods import vertices_within
-from ..mesh.surface_mesh import SurfaceMesh
-from ..report import Callback
-from ..settings import DenoiseSettings
+from .problem import Problem, Solution
 from .progress import rms_motion
 
 _Pairs = tuple[NDArray[np.intp], NDArray[np.intp]]
@@ -25,39 +21,18 @@ VERTICES_AT_ONCE = 2**14
 """Vertices whose neighborhoods are found at once: there are many pairs to each."""
 
 
-def bilateral_filter(
-    noisy: NDArray[np.floating],
-    surface: SurfaceMesh,
-    connectivity: Connectivity,
-    settings: DenoiseSettings,
-    constraints: Constraints,
-    blocks: Blocks,
-    callback: Callback | None = None,
-) -> tuple[NDArray[np.floating], int, bool]:
+def bilateral_filter(problem: Problem) -> Solution:
     """Move each vertex along its normal by the weighted mean height of its neighborhood.
 
     Parameters
     ----------
-    noisy : ndarray, shape (3, N)
-        Noisy positions in mean edge lengths, coordinates in rows; not modified.
-    surface : SurfaceMesh
-        The mesh, for its faces.
-    connectivity : Connectivity
-        Its neighborhoods.
-    settings : DenoiseSettings
-        `iterations`, `tolerance`, `sigma_c`, and `sigma_s`, where 0 stands for the standard deviation of the
-        heights on the noisy mesh.
-    constraints : Constraints
-        Vertices that may not move freely.
-    blocks : Blocks
-        Threads to work on.
-    callback : callable, optional
-        See `report.Callback`.
+    problem : Problem
+        With the settings `iterations`, `tolerance`, `sigma_c`, and `sigma_s`, where 0 stands for the standard
+        deviation of the heights on the noisy mesh.
 
     Returns
     -------
-    points, iterations, is_stopped
-        As `split_bregman` returns them.
+    Solution
 
     Notes
     -----
@@ -65,11 +40,14 @@ def bilateral_filter(
     w = exp(-t^2 / 2 sigma_c^2) exp(-h^2 / 2 sigma_s^2), p <- p + n sum(w h) / sum(w). Neighbors are looked
     for along the surface, as far as 2 sigma_c edges.
     """
+    noisy, surface, settings, callback = problem.noisy, problem.surface, problem.settings, problem.callback
     dtype = noisy.dtype.type
     points = noisy.copy()
-    blocks = blocks.sized(min(blocks.block_size, VERTICES_AT_ONCE))
+    blocks = problem.blocks.sized(min(problem.blocks.block_size, VERTICES_AT_ONCE))
     reach = max(1, ceil(2.0 * settings.sigma_c))
-    pairs = blocks.run(lambda start, stop: vertices_within(connectivity, start, stop, reach), noisy.shape[1])
+    pairs = blocks.run(
+        lambda start, stop: vertices_within(problem.connectivity, start, stop, reach), noisy.shape[1]
+    )
     sigma_s = settings.sigma_s
     for iteration in range(1, settings.iterations + 1):
         normals = np.ascontiguousarray(vertex_normals(surface.with_vertices(points.T)).T, dtype)
@@ -97,14 +75,14 @@ def bilateral_filter(
             following[:, start:stop] += normals[:, start:stop] * moved.astype(dtype)
 
         blocks.run(kernel, noisy.shape[1])
-        constraints.apply(following, noisy)
+        problem.constraints.apply(following, noisy)
         change = rms_motion(following, points, blocks)
         points = following
         if callback is not None and callback(iteration / settings.iterations, change):
-            return points, iteration, True
+            return Solution(points, iteration, True, settings)
         if change < settings.tolerance:
-            return points, iteration, False
-    return points, settings.iterations, False
+            return Solution(points, iteration, False, settings)
+    return Solution(points, settings.iterations, False, settings)
 
 
 def _offsets(

@@ -12,23 +12,17 @@ where they were. What is clean stays put (`learned.stillness`).
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..blocks import Blocks
 from ..learned.engine import FaceEngine
 from ..learned.features import Features
 from ..learned.net import REPEATS, load_net
-from ..learned.noise_field import NoiseBelief, find_belief
+from ..learned.noise_field import find_belief
 from ..learned.scales import Scales
 from ..learned.stillness import clean_places, flat_vertices, hardly_moved
-from ..limits.constraints import Constraints
-from ..mesh.connectivity import Connectivity
-from ..mesh.surface_mesh import SurfaceMesh
-from ..report import Callback
-from ..settings import DenoiseSettings
+from .problem import Problem, Solution
 
 WEAKEST = 0.25
 """Strength below which results are mixed with the input instead: nothing is learned of noise that weak."""
@@ -42,60 +36,27 @@ FARTHEST = np.float32(30)
 WIDTHS = {"AUTO": 0.0, "FINE": -1.0, "WIDE": 1.0}
 
 
-class Learned(NamedTuple):
-    """What learned shrinkage gives back: positions (3, N), passes that ran, and what it took for noise."""
-
-    points: NDArray[np.floating]
-    iterations: int
-    is_stopped: bool
-    belief: NoiseBelief
-
-
 class _Stopped(Exception):
     """Raised inside when the callback asks to stop."""
 
 
-def learned_shrinkage(
-    noisy: NDArray[np.floating],
-    surface: SurfaceMesh,
-    connectivity: Connectivity,
-    engine: FaceEngine,
-    edge: float,
-    settings: DenoiseSettings,
-    constraints: Constraints,
-    blocks: Blocks,
-    callback: Callback | None = None,
-) -> Learned:
+def learned_shrinkage(problem: Problem) -> Solution:
     """Clean a surface.
 
     Parameters
     ----------
-    noisy : ndarray, shape (3, N)
-        Noisy positions in mean edge lengths; not modified.
-    surface : SurfaceMesh
-        The mesh, for its faces.
-    connectivity : Connectivity
-        Its neighborhoods.
-    engine : FaceEngine
-        Its tables.
-    edge : float
-        Mean edge length in scene units.
-    settings : DenoiseSettings
-        `strength`, `noise`, `passes`.
-    constraints : Constraints
-        Vertices that may not move freely.
-    blocks : Blocks
-        Threads to work on.
-    callback : callable, optional
-        See `report.Callback`.
+    problem : Problem
+        With the tables of faces and the settings `strength`, `noise`, `passes`.
 
     Returns
     -------
-    Learned
-        If the run was stopped in the first pass, the noisy positions.
+    Solution
+        With a `NoiseBelief`. If the run was stopped in the first pass, the noisy positions.
     """
+    noisy, settings, engine = problem.noisy, problem.settings, problem.engine
+    assert engine is not None
     points = np.ascontiguousarray(noisy, np.float32)
-    run = _Run(points, surface, connectivity, engine, constraints, blocks, callback)
+    run = _Run(points, engine, problem)
     run.n_ticks = TICKS * (settings.passes + (settings.noise == "AUTO"))
     amount = min(settings.strength / WEAKEST, 1.0)
     log_strength = math.log(max(settings.strength, WEAKEST))
@@ -121,32 +82,23 @@ def learned_shrinkage(
         is_stopped = True
     if not run.is_free.any():
         n_passes = 0  # one was needed to find out that there is nothing to do
-    belief = find_belief(points, fitted, run.unit, engine, edge, run.share_clean())
+    belief = find_belief(points, fitted, run.unit, engine, problem.edge, run.share_clean())
+    # Of a mesh that is clean already the lines, which were smoothed before, stay as well.
+    start = problem.given if belief.is_clean else noisy
     # The displacement is added, so that what did not move keeps its bits in any precision.
     change = (fitted - points).astype(noisy.dtype)
     change *= noisy.dtype.type(amount)
-    return Learned(noisy + change, n_passes, is_stopped, belief)
+    return Solution(start + change, n_passes, is_stopped, settings, belief)
 
 
 class _Run:
     """Passes over a mesh, and which of its vertices are free."""
 
-    def __init__(
-        self,
-        points: NDArray[np.float32],
-        surface: SurfaceMesh,
-        connectivity: Connectivity,
-        engine: FaceEngine,
-        constraints: Constraints,
-        blocks: Blocks,
-        callback: Callback | None,
-    ) -> None:
-        self.points, self.engine, self.constraints = points, engine, constraints
-        self._surface, self._connectivity, self._blocks = surface, connectivity, blocks
-        self._callback = callback
+    def __init__(self, points: NDArray[np.float32], engine: FaceEngine, problem: Problem) -> None:
+        self.points, self.engine, self._problem = points, engine, problem
         self.n_ticks, self._n_done = TICKS, 0
         self._is_movable = np.ones(points.shape[1], bool)
-        self._is_movable[constraints.pinned] = False
+        self._is_movable[problem.constraints.pinned] = False
         self.is_free = self._is_movable.copy()
         self.unit = np.ones(points.shape[1], np.float32)
 
@@ -161,7 +113,12 @@ class _Run:
         self.is_free &= ~flat_vertices(self.points, scales, self.engine.graph)
         moved = self._fitted(scales, features)
         is_clean = clean_places(
-            self.points, self._surface, self._connectivity, self.unit, self.engine.rings, self._blocks
+            self.points,
+            self._problem.surface,
+            self._problem.connectivity,
+            self.unit,
+            self.engine.rings,
+            self._problem.blocks,
         )
         offsets = self.engine.offsets(self.points, moved) / self.unit
         self.is_free &= ~hardly_moved(offsets, is_clean, self.is_free, self.engine.rings)
@@ -184,7 +141,7 @@ class _Run:
         normals = begun.normals(self._tick)
         del begun
         moved = self.engine.fit.fit(self.points, normals, self.is_free)
-        self.constraints.apply(moved, self.points)
+        self._problem.constraints.apply(moved, self.points)
         step = moved - self.points
         is_far = np.sqrt((step * step).sum(axis=0)) > FARTHEST * self.unit
         moved[:, is_far] = self.points[:, is_far]
@@ -198,5 +155,6 @@ class _Run:
     def _tick(self) -> None:
         """Tell that a step is done."""
         self._n_done += 1
-        if self._callback is not None and self._callback(min(self._n_done / self.n_ticks, 1.0), 0.0):
+        callback = self._problem.callback
+        if callback is not None and callback(min(self._n_done / self.n_ticks, 1.0), 0.0):
             raise _Stopped

@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 
 from ..blocks import Blocks
 from ..limits.constraints import Constraints
-from ..report import Callback
 from ..settings import DenoiseSettings
 from ..transform import FrameTransform
 from ..transform.level import Chunk, Level
+from .problem import Callback
 from .progress import rms_motion
 from .shrinkage import clipped
 
@@ -40,7 +40,7 @@ def split_bregman(
     blocks : Blocks
         Threads to work on.
     callback : callable, optional
-        See `report.Callback`.
+        See `problem.Callback`.
 
     Returns
     -------

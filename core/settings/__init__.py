@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What can be set: methods, frames, presets, their ranges and words."""
 
+from .choices import METHODS
 from .denoise_settings import DEFAULT_PRESET, PRESETS, DenoiseSettings
+from .setting_info import SettingInfo
 
-__all__ = ["DEFAULT_PRESET", "PRESETS", "DenoiseSettings"]
+__all__ = ["DEFAULT_PRESET", "METHODS", "PRESETS", "DenoiseSettings", "SettingInfo"]

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from .report import BeliefMixin
 
@@ -13,7 +13,6 @@ if TYPE_CHECKING:
     from ...core import Comparison, NoiseEstimate
     from ...core.report import DenoiseReport
     from ..bands.band_values import ColorRange
-    from ..estimate_noise import MeasuredNoise
     from ..run.denoise_job import MeasuredReport
     from .report import FrameletBandRange, FrameletComparison, FrameletEstimate, FrameletNoise, FrameletReport
 
@@ -34,6 +33,13 @@ SUMMED = (
     "loose_vertices",
     "seconds",
 )
+
+
+class MeasuredNoise(NamedTuple):
+    """The noise of an object, whose lengths are in object space, and the scale that makes scene units."""
+
+    noise: NoiseEstimate
+    scale: float
 
 
 def fill_report(properties: FrameletReport, measured: Mapping[str, MeasuredReport]) -> None:

@@ -20,7 +20,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ...core import Region, SurfaceMesh
-    from ...core.report import Callback, DenoiseReport, DenoiseResult
+    from ...core.methods.problem import Callback
+    from ...core.report import DenoiseReport, DenoiseResult
     from ...core.settings import DenoiseSettings
 
 

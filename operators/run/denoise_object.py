@@ -21,7 +21,8 @@ from .output import refusal, write_output
 if TYPE_CHECKING:
     import bpy
 
-    from ...core.report import Callback, DenoiseReport
+    from ...core.methods.problem import Callback
+    from ...core.report import DenoiseReport
     from ...core.settings import DenoiseSettings
 
 

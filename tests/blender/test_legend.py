@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from framelet.operators.colors.colormaps import DIVERGING, SEQUENTIAL, map_colors
 from framelet.operators.properties.scene_units import value_texts
-from framelet.ui.legend.legend import legend
-from framelet.ui.legend.legend.legend_layout import Rectangle, free_area, lay_out_legend, tick_values
+from framelet.ui.legend import legend
+from framelet.ui.legend.legend_layout import Rectangle, free_area, lay_out_legend, tick_values
 
 AREA = Rectangle(50, 0, 800, 600)
 TEXTS = ["−2 mm", "−1 mm", "0 m", "1 mm", "2 mm"]

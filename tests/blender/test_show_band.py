@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from framelet.core.mesh.geometry import vertex_normals
 from framelet.core.stencils.cells import find_cells
-from framelet.operators.bands.bands.band_values import BandChoice, choose_values, find_limit
+from framelet.operators.bands.band_values import BandChoice, choose_values, find_limit
 from framelet.operators.colors.colormaps import DIVERGING, SEQUENTIAL, map_colors
 from framelet.operators.mesh_io import mesh_bridge
 

@@ -13,6 +13,7 @@ from framelet.core.limits.constraints import find_constraints
 from framelet.core.mesh.connectivity import connect
 from framelet.core.mesh.neighborhoods import vertices_within
 from framelet.core.methods.bilateral import bilateral_filter
+from framelet.core.methods.problem import Problem
 from meshes import MESHES, faces_of, flipped, mixed_sheet, noisy, soup, triangle_torus, union
 from twins import newell
 from twins import vertices_within as within
@@ -72,7 +73,8 @@ def test_blocks_do_not_change_the_result(rng):
     results = []
     for n_threads, block_size in ((1, 1000), (2, 7), (1, 45)):
         with Blocks(n_threads, block_size) as blocks:
-            results.append(bilateral_filter(points, mesh, connectivity, settings, constraints, blocks)[0])
+            problem = Problem(points, points, mesh, connectivity, 1.0, settings, constraints, blocks)
+            results.append(bilateral_filter(problem).points)
     assert np.array_equal(results[0], results[1])
     assert np.array_equal(results[0], results[2])
 

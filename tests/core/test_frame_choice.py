@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from framelet.core import BANKS, PRESETS, DenoiseSettings, connect, denoise, make_transform
 from framelet.core.frames.valence_masks import FAMILIES
-from framelet.core.settings import FRAMES
+from framelet.core.settings.choices import FRAMES
 from framelet.core.settings.frame_catalog import FRAME_CATALOG
 from framelet.core.transform import choose_frame
 from framelet.core.transform.make import check_fit

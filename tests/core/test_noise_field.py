@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from framelet.core import PRESETS, NoiseBelief, add_noise, connect, denoise, noise_field
 from framelet.core.averages.ring_means import RingMeans
-from framelet.core.learned import field as field_module
+from framelet.core.learned import noise_field as field_module
 from framelet.core.mesh.geometry import vertex_normals
 from kinds import ALONE, KIND, KINDS
 from learned_twins import SPREAD, averaging, ring_matrix

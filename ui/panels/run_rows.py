@@ -8,7 +8,7 @@ import bpy
 from bpy.app.translations import pgettext_iface as iface_
 
 from ...operators.denoise import OBJECT_OT_framelet_cancel
-from ...operators.preview import OBJECT_OT_framelet_apply_preview, OBJECT_OT_framelet_preview
+from ...operators.live_preview import OBJECT_OT_framelet_apply_preview, OBJECT_OT_framelet_preview
 from ...operators.preview.current_preview import current_preview, preview_message
 from ...operators.run.current_run import current_run
 from ...operators.run.run_display import progress_text

@@ -15,7 +15,10 @@ class Stopwatch:
 
     def wrap(self, module, name, stage):
         """Time all calls of a function of a module from now on."""
-        function = getattr(module, name)
+        setattr(module, name, self.timed(getattr(module, name), stage))
+
+    def timed(self, function, stage):
+        """Return a function that times itself."""
 
         def timed(*given, **named):
             began = perf_counter()
@@ -24,7 +27,7 @@ class Stopwatch:
             finally:
                 self.add(stage, perf_counter() - began)
 
-        setattr(module, name, timed)
+        return timed
 
     def add(self, stage, seconds):
         self.seconds[stage] = self.seconds.get(stage, 0.0) + seconds

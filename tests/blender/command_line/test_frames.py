@@ -6,7 +6,7 @@
 import numpy as np
 import pytest
 from framelet.core import PRESETS, DenoiseSettings, SurfaceMesh, denoise
-from framelet.core.settings import FRAMES, STENCILS
+from framelet.core.settings.choices import FRAMES, STENCILS
 from framelet.operators.command_line.arguments import as_word
 
 TOLERANCE = 1e-5  # another order of edges and faces changes the rounding

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from checks import assert_same_bits
 from framelet.core import connect
+from framelet.core.averages.ring_means import RingMeans
 from framelet.core.blocks import Blocks
 from framelet.core.learned import screened_fit, unfolding
 from framelet.core.learned.engine import FaceEngine, long_edges
@@ -140,6 +141,21 @@ def test_spikes_do_not_lift_what_is_around():
     found = fit_of(clean).fit(points_of(clean.with_vertices(points)), normals)
     assert np.abs(found[2]).max() < 0.02 * 4.0
     assert np.abs(np.delete(found[2], 480)).max() < 0.02
+
+
+def test_what_does_not_move_is_no_outlier(monkeypatch):
+    """Means of zeros that rounding makes negative once made outliers without a direction, and NaN of them."""
+    exact = RingMeans.averaged
+
+    def rounded(self, field, n_averages):
+        return exact(self, field, n_averages) - np.float32(1e-9)
+
+    monkeypatch.setattr(RingMeans, "averaged", rounded)
+    sheet = triangle_grid(31, 31)
+    points = sheet.vertices.copy()
+    points[[200, 480, 700], 2] = 4.0
+    normals = np.ascontiguousarray(normals_of(sheet).T, np.float32)
+    assert np.isfinite(fit_of(sheet).fit(points_of(sheet.with_vertices(points)), normals)).all()
 
 
 def test_gaussian_noise_has_no_outliers(rng):

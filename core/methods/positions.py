@@ -1,0 +1,37 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The paper's method, POSITIONS: shrink the frame coefficients of the vertex positions by split Bregman."""
+
+from __future__ import annotations
+
+from ..noise import estimate_noise
+from ..transform import choose_frame
+from .problem import Problem, Solution
+from .split_bregman import split_bregman
+from .tuning import tuned
+
+
+def shrink_positions(problem: Problem) -> Solution:
+    """Denoise by one of the paper's algorithms (4.10), (4.12), (5.10), (5.11).
+
+    Parameters
+    ----------
+    problem : Problem
+        With a transform that was made on the noisy surface, in the dtype of the noisy positions.
+
+    Returns
+    -------
+    Solution
+        With the parameters that the noise asks for, if the tuning is NOISE.
+    """
+    settings, noise = problem.settings, None
+    if settings.tuning == "NOISE":
+        noise = estimate_noise(problem.surface, problem.connectivity, problem.blocks)
+        settings = tuned(settings, choose_frame(settings.frame, problem.connectivity), noise)
+    if settings.lambda_ == 0.0:  # nothing is shrunk, so nothing moves
+        return Solution(problem.noisy, settings.iterations, False, settings, noise)
+    assert problem.transform is not None
+    points, iterations, is_stopped = split_bregman(
+        problem.noisy, problem.transform, settings, problem.constraints, problem.blocks, problem.callback
+    )
+    return Solution(points, iterations, is_stopped, settings, noise)
