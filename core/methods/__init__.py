@@ -5,12 +5,12 @@
 from collections.abc import Callable
 
 from .bilateral import bilateral_filter
-from .learned_shrinkage import learned_shrinkage
+from .learned_shrinkage import shrink_normals
 from .positions import shrink_positions
 from .problem import Problem, Solution
 
 METHODS: dict[str, Callable[[Problem], Solution]] = {
-    "AUTO": learned_shrinkage,
+    "AUTO": shrink_normals,
     "POSITIONS": shrink_positions,
     "BILATERAL": bilateral_filter,
 }

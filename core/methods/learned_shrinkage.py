@@ -40,7 +40,7 @@ class _Stopped(Exception):
     """Raised inside when the callback asks to stop."""
 
 
-def learned_shrinkage(problem: Problem) -> Solution:
+def shrink_normals(problem: Problem) -> Solution:
     """Clean a surface.
 
     Parameters
