@@ -97,7 +97,8 @@ def find_features(
     jumps = np.empty((graph.n_pairs + 1, 4), np.float32)
     jumps[-1] = np.log(FLOOR)
     jumps[:, 3] = 0
-    normals, centroids, areas = scales.normals, scales.centroids, scales.areas
+    normals, centroids = scales.normals, scales.centroids
+    area = scales.areas[:, 0].copy()  # `take` would copy all of a strided array for every block
 
     def across(start: int, stop: int) -> None:
         one, two = graph.first[start:stop], graph.second[start:stop]
@@ -126,7 +127,7 @@ def find_features(
         np.sqrt(distance, out=distance)
         bend /= distance
         part = pairs[start:stop]
-        ratio = np.log((areas[:, 0].take(one) + FLOOR) / (areas[:, 0].take(two) + FLOOR))
+        ratio = np.log((area.take(one) + FLOOR) / (area.take(two) + FLOOR))
         part[:, 0] = np.log(distance[:, 0] / unit + np.float32(0.01))
         part[:, 1] = np.abs(ratio, out=ratio)
         part[:, 2 : 2 + n_bands] = bend[:, :n_bands]
@@ -159,7 +160,7 @@ def find_features(
             apart += FLOOR
             part[:, column] = np.log(apart)
         column = 2 * n_bands + len(PAIRS_OF_SCALES)
-        part[:, column] = np.log(areas[block, 0] / (unit * unit) + np.float32(0.01))
+        part[:, column] = np.log(area[block] / (unit * unit) + np.float32(0.01))
         around = jumps.take(polygons.pairs, axis=0)
         energies = around.reshape(len(around), -1).sum(axis=0).reshape(-1, 4)
         energies *= np.float32(1.0 / len(around))

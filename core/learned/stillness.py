@@ -118,7 +118,9 @@ def _flat_faces(points: NDArray[np.float32], scales: Scales, graph: FaceGraph) -
 
     Polygons count as the triangles that they are made of.
     """
-    normals = scales.normals[..., 0]
+    # Whole arrays: `take` would copy all of a strided one for every block.
+    normals = np.ascontiguousarray(scales.normals[..., 0])
+    height = scales.areas[:, 0] / scales.length  # about the heights of the faces
     rounding = np.float32(ROUNDING) * np.spacing(np.abs(points).max(initial=np.float32(1)))
     n_triangles = np.ones(graph.n_faces, np.int32)
     is_pair = np.zeros(graph.n_pairs, bool)
@@ -126,10 +128,10 @@ def _flat_faces(points: NDArray[np.float32], scales: Scales, graph: FaceGraph) -
     def compare(start: int, stop: int) -> None:
         one, two = graph.first[start:stop], graph.second[start:stop]
         apart = normals.take(two, axis=1) - normals.take(one, axis=1)
-        height = np.minimum(_heights(scales, one), _heights(scales, two))
-        is_pair[start:stop] = (apart * apart).sum(axis=0) * height * height < rounding * rounding
+        lower = np.minimum(height.take(one), height.take(two))
+        is_pair[start:stop] = (apart * apart).sum(axis=0) * lower * lower < rounding * rounding
         # The normal of a face next to without area is nothing but rounding.
-        is_pair[start:stop] &= height > LEAST_HEIGHT * rounding
+        is_pair[start:stop] &= lower > LEAST_HEIGHT * rounding
 
     def count(faces: slice, polygons: Polygons) -> None:
         center = scales.centroids[:, faces, 0]
@@ -147,11 +149,6 @@ def _flat_faces(points: NDArray[np.float32], scales: Scales, graph: FaceGraph) -
     if n_triangles[is_flat].sum() > MOSTLY_FLAT * n_triangles.sum():
         is_flat |= sizes[part] >= 2  # planes are what this mesh is made of, and some are small
     return is_flat
-
-
-def _heights(scales: Scales, faces: NDArray[np.int32]) -> NDArray[np.float32]:
-    """Return about the heights of faces, shape (n,): area over local edge length."""
-    return scales.areas[:, 0].take(faces) / scales.length.take(faces)
 
 
 def clean_places(
