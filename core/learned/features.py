@@ -7,7 +7,9 @@ Lengths are in the local unit. Energies are logarithms with a floor, e(x) = log(
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,20 +39,36 @@ N_FACE = 3 + 3 + len(PAIRS_OF_SCALES) + 1 + N_SPREAD + N_GLOBAL + N_TAKEN
 N_EDGE = 7
 
 
-class Features(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class Features:
     """Inputs of the net.
 
     Attributes
     ----------
-    faces : ndarray, shape (F, N_FACE), float32
-        Heights and energies at each face, the same spread over its neighborhood, quantiles over its island,
-        and what the pass before took away.
     pairs : ndarray, shape (P + 1, N_EDGE), float32
         Distance, ratio of areas, bends and offsets across each edge; 0 for the pair without faces.
+    block : callable
+        `block(faces, polygons)` returns the inputs of some faces, shape (n, N_FACE), float32: heights and
+        energies at each face, the same spread over its neighborhood, quantiles over its island, and what the
+        pass before took away. Those of all faces at once would be the largest array of a run.
+    graph : FaceGraph
+        The faces.
     """
 
-    faces: NDArray[np.float32]
     pairs: NDArray[np.float32]
+    block: Callable[[slice, Polygons], NDArray[np.float32]]
+    graph: FaceGraph
+
+    @cached_property
+    def faces(self) -> NDArray[np.float32]:
+        """The inputs of all faces, shape (F, N_FACE)."""
+        result = np.empty((self.graph.n_faces, N_FACE), np.float32)
+
+        def fill(faces: slice, polygons: Polygons) -> None:
+            result[faces] = self.block(faces, polygons)
+
+        self.graph.for_faces(fill)
+        return result
 
 
 def energy(values: NDArray[np.float32]) -> NDArray[np.float32]:
@@ -92,7 +110,6 @@ def find_features(
         What is expected of the noise: 1 wide, -1 fine, 0 nothing.
     """
     n_bands = N_SCALES - 1
-    faces = np.empty((graph.n_faces, N_FACE), np.float32)
     pairs = np.zeros((graph.n_pairs + 1, N_EDGE), np.float32)
     jumps = np.empty((graph.n_pairs + 1, 4), np.float32)
     jumps[-1] = np.log(FLOOR)
@@ -137,33 +154,23 @@ def find_features(
     spread = np.empty((graph.n_faces, N_SPREAD), np.float32)
     is_flat = np.empty(graph.n_faces, bool)
 
-    def inside(block: slice, polygons: Polygons) -> None:
-        part = faces[block]
-        unit = scales.length[block]
-        height = np.zeros((len(part), N_SCALES), np.float32)
+    def heights_of(block: slice) -> NDArray[np.float32]:
+        height = np.zeros((block.stop - block.start, N_SCALES), np.float32)
         for axis in range(3):
             center = centroids[axis, block]
             step = np.zeros_like(height)
             step[:, :-1] = center[:, :-1] - center[:, 1:]
             step[:, :-1] *= normals[axis, block, 1:]
             height += step
-        height /= unit[:, None]
-        part[:, :n_bands] = height[:, :n_bands]
-        heights = energy(height)
-        part[:, n_bands : 2 * n_bands] = heights[:, :n_bands]
-        for column, (one, two) in enumerate(PAIRS_OF_SCALES, 2 * n_bands):
-            apart = np.zeros(len(part), np.float32)
-            for axis in range(3):
-                step = normals[axis, block, one] - normals[axis, block, two]
-                step *= step
-                apart += step
-            apart += FLOOR
-            part[:, column] = np.log(apart)
-        column = 2 * n_bands + len(PAIRS_OF_SCALES)
-        part[:, column] = np.log(area[block] / (unit * unit) + np.float32(0.01))
+        height /= scales.length[block, None]
+        return height
+
+    def energies_at(block: slice, polygons: Polygons) -> None:
+        height = heights_of(block)
         around = jumps.take(polygons.pairs, axis=0)
         energies = around.reshape(len(around), -1).sum(axis=0).reshape(-1, 4)
         energies *= np.float32(1.0 / len(around))
+        heights = energy(height)
         own = spread[block]
         own[:, :n_bands] = energies[:, :n_bands]
         own[:, n_bands : 2 * n_bands] = heights[:, :n_bands]
@@ -173,15 +180,28 @@ def find_features(
             np.abs(height[:, 0]) < np.float32(1e-3)
         )
 
-    graph.for_faces(inside)
-    column = 2 * n_bands + len(PAIRS_OF_SCALES) + 1
-    faces[:, column + N_SPREAD : -N_TAKEN - 1] = _quantiles(spread, is_flat, island, log_strength)
-    faces[:, -N_TAKEN - 1] = width
-    faces[:, -N_TAKEN:] = 0
+    graph.for_faces(energies_at)
+    widths = np.asarray(width, np.float32)
+    quantiles = _quantiles(spread, is_flat, island, log_strength)
     at_faces = rings.inward(at_vertex.outward(at_vertex.mean(spread)))
     at_faces = rings.outward(rings.averaged(at_faces, SPREAD_AVERAGES))
 
-    def collect(block: slice, polygons: Polygons) -> None:
+    def collect(block: slice, polygons: Polygons) -> NDArray[np.float32]:
+        n = block.stop - block.start
+        faces = np.empty((n, N_FACE), np.float32)
+        unit, height = scales.length[block], heights_of(block)
+        faces[:, :n_bands] = height[:, :n_bands]
+        faces[:, n_bands : 2 * n_bands] = energy(height)[:, :n_bands]
+        for column, (one, two) in enumerate(PAIRS_OF_SCALES, 2 * n_bands):
+            apart = np.zeros(n, np.float32)
+            for axis in range(3):
+                step = normals[axis, block, one] - normals[axis, block, two]
+                step *= step
+                apart += step
+            apart += FLOOR
+            faces[:, column] = np.log(apart)
+        column = 2 * n_bands + len(PAIRS_OF_SCALES)
+        faces[:, column] = np.log(area[block] / (unit * unit) + np.float32(0.01))
         corners = at_faces.take(polygons.corners, axis=0)
         total = corners.reshape(len(corners), -1).sum(axis=0).reshape(-1, N_SPREAD)
         total *= np.float32(1.0 / len(corners))
@@ -192,15 +212,17 @@ def find_features(
         if log_strength:
             total[:, :2] += np.float32(2 * log_strength)
             total[:, n_bands : 2 * n_bands] += np.float32(log_strength)
-        faces[block, column : column + N_SPREAD] = total
+        faces[:, column + 1 : column + 1 + N_SPREAD] = total
+        faces[:, column + 1 + N_SPREAD : -N_TAKEN - 1] = quantiles if island is None else quantiles[block]
+        faces[:, -N_TAKEN - 1] = widths if widths.ndim == 0 else widths[block]
+        faces[:, -N_TAKEN:] = 0
         if taken is not None:
-            unit = scales.length[block]
             strength = taken.strength.take(polygons.corners).mean(axis=0) / unit
-            faces[block, -2] = energy(strength) / 4 + 1  # 0, as in a first pass, for a usual strength
-            faces[block, -1] = 2 * taken.correlation.take(polygons.corners).mean(axis=0)
+            faces[:, -2] = energy(strength) / 4 + 1  # 0, as in a first pass, for a usual strength
+            faces[:, -1] = 2 * taken.correlation.take(polygons.corners).mean(axis=0)
+        return faces
 
-    graph.for_faces(collect)
-    return Features(faces, pairs)
+    return Features(pairs, collect, graph)
 
 
 def _quantiles(

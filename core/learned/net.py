@@ -126,9 +126,6 @@ class NetRun:
         self.net, self.graph = net, graph
         n_faces, n_pairs = graph.n_faces, graph.n_pairs
         self.vectors = scales.normals
-        self.following = np.empty_like(scales.normals)
-        self.hidden = np.zeros((n_pairs + 1, HIDDEN), np.float32)
-        self.gates = np.zeros((n_pairs + 1, N_SCALES), np.float32)
         self.state = np.empty((n_faces, HIDDEN), np.float32)
         self.offer = np.empty((n_faces, HIDDEN), np.float32)
         weight, inverse_area = pair_weights(scales, graph)
@@ -145,17 +142,18 @@ class NetRun:
 
         graph.for_pairs(standardize)
 
-        def begin(start: int, stop: int) -> None:
-            part = features.faces[start:stop] - net.face_mean
+        def begin(faces: slice, polygons: Polygons) -> None:
+            part = features.block(faces, polygons)
+            part -= net.face_mean
             part /= net.face_scale
             np.clip(part, -CLIP, CLIP, out=part)
             hidden = _product(part, net.enter, net.enter_bias)
             np.maximum(hidden, np.float32(0), out=hidden)
             state = _product(hidden, net.begin, net.begin_bias)
-            self.state[start:stop] = state
-            _times(state, net.layers[0].from_faces, self.offer[start:stop])
+            self.state[faces] = state
+            _times(state, net.layers[0].from_faces, self.offer[faces])
 
-        graph.blocks.run(begin, n_faces)
+        graph.for_faces(begin)
 
     def _factor(self, weight: NDArray[np.float32]) -> NDArray[np.float32]:
         """Return what (1 + tanh) of a pair is multiplied with, shape (P, S): c_e / (2 (K + 1))."""
@@ -177,7 +175,11 @@ class NetRun:
 
     def normals(self, tick: Callable[[], None]) -> NDArray[np.float32]:
         """Go through all layers and return unit normals, shape (3, F)."""
-        layers = self.net.layers
+        layers, n_pairs = self.net.layers, self.graph.n_pairs
+        # Made here, where the memory of scales and features may be free again.
+        self.following = np.empty_like(self.vectors)
+        self.hidden = np.zeros((n_pairs + 1, HIDDEN), np.float32)
+        self.gates = np.zeros((n_pairs + 1, N_SCALES), np.float32)
         for layer, after, repeats in zip(layers, [*layers[1:], None], REPEATS, strict=True):
             self.graph.for_pairs(partial(self._make_gates, layer))
             for step in range(repeats):
