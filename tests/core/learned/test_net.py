@@ -71,6 +71,7 @@ def test_the_net_is_a_loop_over_faces_and_pairs(name, rng):
         scales.length,
     ]
     before = [x.astype(float) for x in before]
+    inputs = features.faces.astype(float)
     found = net.Net(arrays).normals(scales, features, engine.graph)
     # The pairs of the twin have the features of the same pairs of the graph.
     graph, number = engine.graph, {}
@@ -81,7 +82,7 @@ def test_the_net_is_a_loop_over_faces_and_pairs(name, rng):
         {key: array.astype(float) for key, array in arrays.items()},
         mesh,
         before,
-        features.faces.astype(float),
+        inputs,
         [row.astype(float) for row in pair_features],
         REPEATS,
     )
