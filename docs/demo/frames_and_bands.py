@@ -35,12 +35,12 @@ def main() -> int:
     try:
         with captured_output():
             monkey = make_monkey("Monkey")
-            render_picture(show_bands(monkey), IMAGES / "bands.png")
-            render_picture(equalized(monkey), IMAGES / "equalizer.png")
+            render_picture(show_bands(monkey), IMAGES / "bands.webp")
+            render_picture(equalized(monkey), IMAGES / "equalizer.webp")
     finally:
         # A class that is still registered when Python exits crashes Blender 4.2.
         framelet.unregister()
-    sys.stdout.write(f"Wrote bands.png and equalizer.png to {IMAGES}.\n")
+    sys.stdout.write(f"Wrote bands.webp and equalizer.webp to {IMAGES}.\n")
     return 0
 
 

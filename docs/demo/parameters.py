@@ -39,10 +39,10 @@ def main() -> int:
     clean = mesh_bridge.read_surface(monkey)
     noisy = clean.with_vertices(add_noise(clean, SIGMA, 0))
     rows = [(f"λ = {value:g}", {"lambda_": value}) for value in LAMBDAS]
-    render(monkey, clean, noisy, rows, "lambda.png")
+    render(monkey, clean, noisy, rows, "lambda.webp")
     rows = [(f"μ = {value:g}", {"mu": value}) for value in MUS]
     rows.append((f"{MANY} iterations", {"iterations": MANY}))
-    render(monkey, clean, noisy, rows, "mu.png")
+    render(monkey, clean, noisy, rows, "mu.webp")
     return 0
 
 

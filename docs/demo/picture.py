@@ -250,12 +250,11 @@ def _paste(sheet: np.ndarray, tile: np.ndarray, left: int, top: int) -> None:
 
 
 def _save(scene: bpy.types.Scene, sheet: np.ndarray, path: Path) -> None:
-    """Write the sheet, in gray if it has no colors; few shades look alike and make a smaller file."""
+    """Write the sheet as WebP, which takes a fifth of what PNG takes."""
     height, width = sheet.shape[:2]
-    is_gray = bool((np.ptp(sheet[:, :, :3], axis=2) < 0.02).all())
-    shades = 127 if is_gray else 40
     image = bpy.data.images.new("Sheet", width, height, alpha=False)
-    image.pixels.foreach_set((np.round(sheet[::-1] * shades) / shades).reshape(-1))
-    scene.render.image_settings.color_mode = "BW" if is_gray else "RGB"
-    scene.render.image_settings.compression = 100
+    image.pixels.foreach_set(sheet[::-1].reshape(-1))
+    scene.render.image_settings.file_format = "WEBP"
+    scene.render.image_settings.color_mode = "RGB"
+    scene.render.image_settings.quality = 82
     image.save_render(str(path), scene=scene)

@@ -57,8 +57,8 @@ def main() -> int:
                 obj = make(kind.name)
             columns = compared(obj, kind)
             with captured_output():
-                render_picture(columns, IMAGES / f"preset_{kind.name}.png", kind.views)
-            print(f"Wrote preset_{kind.name}.png to {IMAGES}.", flush=True)
+                render_picture(columns, IMAGES / f"preset_{kind.name}.webp", kind.views)
+            print(f"Wrote preset_{kind.name}.webp to {IMAGES}.", flush=True)
     return 0
 
 

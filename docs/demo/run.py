@@ -73,8 +73,8 @@ def main() -> int:
             write_ply(obj, output / f"{obj.name}.ply")
         columns = [Column(run.obj, run.name, f"{run.comparison.mean_angle:.1f}° mean error") for run in runs]
         columns.append(Column(clean_obj, "Clean", "before noise was added"))
-        render_picture(columns, output / "before_after.png")
-    print(f"\nMeshes (PLY), results.csv and before_after.png are in {output}.")
+        render_picture(columns, output / "before_after.webp")
+    print(f"\nMeshes (PLY), results.csv and before_after.webp are in {output}.")
     return 0
 
 

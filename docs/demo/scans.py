@@ -68,8 +68,8 @@ def main() -> int:
             obj = load_scan(path, scan.turn)
         columns = denoised(obj, scan.strengths)
         with captured_output():
-            render_picture(columns, IMAGES / f"scan_{scan.name}.png", [view(*row) for row in scan.rows])
-        print(f"Wrote scan_{scan.name}.png to {IMAGES}.", flush=True)
+            render_picture(columns, IMAGES / f"scan_{scan.name}.webp", [view(*row) for row in scan.rows])
+        print(f"Wrote scan_{scan.name}.webp to {IMAGES}.", flush=True)
     return 0
 
 

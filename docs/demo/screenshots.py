@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 
-"""Take the screenshots of the documents in a real window of Blender, at the scales 1x and 2x.
+"""Take the screenshots of the documents in a real window of Blender.
 
     make screenshots
 
@@ -25,9 +25,7 @@ from blender_window.session import Session  # noqa: E402
 from blender_window.sidebar import press, start_fresh  # noqa: E402
 
 IMAGES = ROOT / "docs" / "images"
-SIZES = {1: (1180, 920), 2: (2080, 1840)}
-N_COLORS = {1: 256, 2: 96}
-"""Of pictures by their scale, so that large ones take less than 300 kB."""
+SIZE = (1180, 920)
 
 PATIENCE = 300.0
 TEXT = 130
@@ -37,7 +35,7 @@ MOVED = "positions('Monkey').tobytes() != before"
 
 
 class Shot(NamedTuple):
-    """A picture: its name, the subpanels that are open, what is done, what is cut out, and the scales.
+    """A picture: its name, the subpanels that are open, what is done, and what is cut out.
 
     `part` is a region of the viewport, AREA for the viewport with its sidebar, or WINDOW for all.
     """
@@ -46,12 +44,7 @@ class Shot(NamedTuple):
     unfolded: tuple[str, ...]
     act: Callable[[Session], None]
     part: str = "AREA"
-    scales: tuple[int, ...] = (1,)
     subdivisions: int = 2
-
-    def file(self, scale: float) -> str:
-        """Return the name of the file, without its ending."""
-        return self.name if scale == 1 else f"{self.name}_{scale:g}x"
 
 
 def rest(session: Session) -> None:
@@ -108,14 +101,13 @@ def show_group(session: Session) -> None:
     )
 
 
-BOTH = (1, 2)
 SHOTS = (
     Shot("window_start", (), rest),
     Shot("window_denoised", ("last_run",), denoise),
-    Shot("window_heat_map", ("see",), show_heat, scales=BOTH),
-    Shot("window_bands", ("bands",), show_band, scales=BOTH),
-    Shot("window_cancel", (), run_long, "WINDOW", BOTH, 4),
-    Shot("panel", (), denoise, "UI", BOTH),
+    Shot("window_heat_map", ("see",), show_heat),
+    Shot("window_bands", ("bands",), show_band),
+    Shot("window_cancel", (), run_long, "WINDOW", 4),
+    Shot("panel", (), denoise, "UI"),
     Shot("panel_tri_2", ("advanced",), choose_tri_2, "UI"),
     Shot("panel_region", ("region", "output"), show_group, "UI"),
     Shot("panel_equalizer", ("equalizer",), rest, "UI"),
@@ -133,17 +125,14 @@ def main() -> int:
         print(f"No screenshots: this {reason}.")
         return 1
     extension = Path(os.environ.get("FRAMELET_ZIP") or next((ROOT / "build").glob("framelet-*.zip")))
-    wanted = sys.argv[1:] or [shot.file(scale) for shot in SHOTS for scale in shot.scales]
-    for scale, size in SIZES.items():
-        shots = [shot for shot in SHOTS if scale in shot.scales and shot.file(scale) in wanted]
-        if not shots:
-            continue
-        session = Session(programs, extension, size, scale, overlap=True)
-        try:
-            for shot in shots:
+    wanted = sys.argv[1:] or [shot.name for shot in SHOTS]
+    session = Session(programs, extension, SIZE, 1, overlap=True)
+    try:
+        for shot in SHOTS:
+            if shot.name in wanted:
                 take(session, shot)
-        finally:
-            session.close()
+    finally:
+        session.close()
     return 0
 
 
@@ -156,9 +145,8 @@ def take(session: Session, shot: Shot) -> None:
     session.move((5, 5))
     session.settle(2.0)
     picture = session.picture() if shot.part == "WINDOW" else cut(session, shot.part)
-    name = shot.file(session.scale)
-    write_png(IMAGES / f"{name}.png", picture, N_COLORS[int(session.scale)])
-    print(f"Wrote {name}.png to {IMAGES}.", flush=True)
+    write_png(IMAGES / f"{shot.name}.png", picture)
+    print(f"Wrote {shot.name}.png to {IMAGES}.", flush=True)
     if session.run("result = hasattr(bpy.types, 'OBJECT_OT_framelet_cancel')"):
         session.run("if bpy.ops.object.framelet_cancel.poll(): bpy.ops.object.framelet_cancel()")
         session.settle(0.5)
@@ -171,14 +159,14 @@ def cut(session: Session, part: str) -> np.ndarray:
     picture = session.picture()
     top = session.size[1] - y - height
     picture = picture[top : top + height, x : x + width]
-    return trimmed(picture, session.scale) if part == "UI" else picture
+    return trimmed(picture) if part == "UI" else picture
 
 
-def trimmed(picture: np.ndarray, scale: float) -> np.ndarray:
+def trimmed(picture: np.ndarray) -> np.ndarray:
     """Return the sidebar without its tabs, down to its last line of text."""
-    left, right = int(8 * scale), picture.shape[1] - int(30 * scale)
-    is_text = (picture[:, left + int(20 * scale) : right].min(axis=2) > TEXT).any(axis=1)
-    bottom = int(np.flatnonzero(is_text)[-1]) + int(14 * scale)
+    left, right = 8, picture.shape[1] - 30
+    is_text = (picture[:, left + 20 : right].min(axis=2) > TEXT).any(axis=1)
+    bottom = int(np.flatnonzero(is_text)[-1]) + 14
     return picture[:bottom, left:right]
 
 
