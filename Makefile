@@ -90,9 +90,13 @@ pictures: ## Render the pictures of the documents again, half an hour
 	for script in parameters presets frames_and_bands; do \
 	  $(ENVIRONMENT) run bpy-5.2 -- docs/demo/$$script.py || exit 1; done
 
+.PHONY: translations
+translations: ## List texts that a translation misses, and entries that belong to no text
+	$(ENVIRONMENT) run bpy-$(BLENDER) --timeout $(TIMEOUT) -- tests/list_translations.py
+
 .PHONY: quality
-quality: ## Compare with published filters, an hour or more; tables and plot go to docs
-	$(ENVIRONMENT) run benchmarks -- tests/benchmarks/quality/run.py --update
+quality: ## Denoise noisy models by AUTO, compare with published filters, and write the tables into docs
+	$(ENVIRONMENT) run benchmarks -- tests/benchmarks/quality/run.py --rerun AUTO --update
 
 .PHONY: benchmark-speed
 benchmark-speed: ## Measure seconds and memory up to 4 million vertices, beside other programs

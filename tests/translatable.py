@@ -24,7 +24,7 @@ def messages():
     for each in (*registration.classes, *framelet.ui.classes):
         found |= _of_class(each)
     for folder in ("operators", "ui"):
-        for path in sorted((ROOT / folder).glob("*.py")):
+        for path in sorted((ROOT / folder).rglob("*.py")):
             found |= _of_source(path)
     # A name may be empty, and what has no letters is the same in every language.
     return {(context, text) for context, text in found if any(map(str.isalpha, text))}

@@ -3,7 +3,7 @@
 """What Blender shows for Framelet in other languages.
 
 Blender looks texts up by context: *Operator* for the names of operators and the texts on their buttons, * for
-everything else. A test compares the entries with all texts that Framelet shows.
+everything else. A text without an entry is shown in English; `make translations` lists them.
 """
 
 import bpy
