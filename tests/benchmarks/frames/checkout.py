@@ -21,6 +21,7 @@ def load_framelet() -> None:
     spec.loader.exec_module(package)
 
 
+sys.path.append(str(ROOT / "tests" / "benchmarks"))
 if str(ROOT / "tests") not in sys.path:
     sys.path.insert(0, str(ROOT / "tests"))
 load_framelet()

@@ -14,26 +14,24 @@ import argparse
 import sys
 from pathlib import Path
 
-import checkout
+import checkout  # noqa: F401
 from algorithms import MAX_VERTICES
 from cases import LARGEST, case_names
 from dilation import Cost, measure_all
 from measuring import Row, run_all
 from records import read_records, write_records
+from science_page import update_page
 from tables import (
     Results,
     cost_table,
     extra_table,
     frame_table,
-    full_list,
     level_table,
+    mean_table,
     preset_table,
     stencil_table,
 )
 
-PAGE = checkout.ROOT / "docs" / "benchmarks.md"
-LIST = checkout.ROOT / "docs" / "benchmarks_frames.md"
-FOLDER = Path(__file__).resolve().parent
 RESULTS, COSTS = "results.csv", "dilation.csv"
 
 
@@ -49,15 +47,13 @@ def main() -> int:
     text = "\n".join(f"## {title}\n\n{table}" for title, table in sections.items())
     arguments.output.mkdir(parents=True, exist_ok=True)
     (arguments.output / "frames.md").write_text(text, encoding="utf-8")
-    for folder in [arguments.output, *([FOLDER] if arguments.update else [])]:
-        write_records(rows, folder / RESULTS)
-        if costs:
-            write_records(costs, folder / COSTS)
+    write_records(rows, arguments.output / RESULTS)
+    if costs:
+        write_records(costs, arguments.output / COSTS)
+    say(text)
     say(f"Wrote frames.md and {RESULTS} in {arguments.output}.")
     if arguments.update:
-        update_page(sections)
-        LIST.write_text(list_page(sections["list"]), encoding="utf-8")
-        say("Updated the tables in docs.")
+        update_page({"algorithms and frames": sections["means"]})
     return 0
 
 
@@ -90,7 +86,7 @@ def parse() -> argparse.Namespace:
     parser.add_argument(
         "--output",
         type=Path,
-        default=Path("build/benchmarks"),
+        default=Path("build/benchmarks/frames"),
         help="folder for the tables, frames.md, and the CSV files",
     )
     parser.add_argument(
@@ -99,7 +95,7 @@ def parse() -> argparse.Namespace:
         metavar="FOLDER",
         help="only write the tables again, from the CSV files of a run",
     )
-    parser.add_argument("--update", action="store_true", help="write the tables into docs as well")
+    parser.add_argument("--update", action="store_true", help="write the table of means into docs")
     return parser.parse_args()
 
 
@@ -107,6 +103,7 @@ def make_sections(rows: list[Row], costs: list[Cost]) -> dict[str, str]:
     """Return the tables by the names that they have in the page."""
     results = Results(rows)
     sections = {
+        "means": mean_table(results),
         "presets on triangles": preset_table(results, is_quad=False),
         "presets on quads": preset_table(results, is_quad=True),
         "levels of presets on triangles": extra_table(results, is_quad=False),
@@ -118,30 +115,7 @@ def make_sections(rows: list[Row], costs: list[Cost]) -> dict[str, str]:
     }
     if costs:
         sections["dilation"] = cost_table(costs)
-    sections["list"] = full_list(results)
     return sections
-
-
-def update_page(sections: dict[str, str]) -> None:
-    """Put the tables between the marks of the page."""
-    text = PAGE.read_text(encoding="utf-8")
-    for name, table in sections.items():
-        begin, end = f"<!-- begin {name} -->\n", f"<!-- end {name} -->"
-        if begin in text:
-            before, rest = text.split(begin, 1)
-            text = before + begin + table + end + rest.split(end, 1)[1]
-    PAGE.write_text(text, encoding="utf-8")
-
-
-def list_page(table: str) -> str:
-    """Return the page with every result."""
-    return (
-        "# All results\n\n"
-        "Written by `tests/benchmarks/frames/run.py --update`; [Benchmarks](benchmarks.md) explains the\n"
-        "columns. Angles are in degrees, rms in mean edge lengths of the clean mesh, seconds on one thread.\n"
-        "A λ with an asterisk is the smallest or the largest that was tried.\n"
-        "The same as a CSV file: `tests/benchmarks/frames/results.csv`.\n\n" + table
-    )
 
 
 def say(line: str) -> None:

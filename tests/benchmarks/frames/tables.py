@@ -45,6 +45,25 @@ def markdown(head: Sequence[str], body: Iterable[Sequence[str]]) -> str:
     return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in body]) + "\n"
 
 
+def mean_table(results: Results) -> str:
+    """Return means of the paper's presets, the baseline and the main frames over all meshes of a kind."""
+    head = ["Faces", "Algorithm", "Angle", "rms", "Angle, best λ", "rms, best λ"]
+    body = []
+    for is_quad in (False, True):
+        meshes = results.meshes(is_quad)
+        frame = "LINEAR_SPLINE" if is_quad else "BOX_SPLINE_111"
+        kind = f"{len(meshes)} of {'quads' if is_quad else 'triangles'}"
+        names = {key: key.capitalize().replace("_", "-") for key in preset_keys(is_quad)}
+        names |= {f"{frame} STRAIGHT 1": f"`{frame}`", "ADAPTIVE ADAPTIVE 1": "`ADAPTIVE`"}
+        for key, name in names.items() if meshes else ():
+            cells = []
+            for choice in CHOICES:
+                rows = [results.get(mesh, key, choice) for mesh in meshes]
+                cells += [f"{_mean(row.angle for row in rows):.2f}", f"{_mean(row.rms for row in rows):.2f}"]
+            body.append([kind, name, *cells])
+    return markdown(head, body)
+
+
 def preset_table(results: Results, is_quad: bool) -> str:
     """Return angle and rms of the presets at their defaults and at the best of their grids."""
     keys = ("BILATERAL", "QUAD_1", "QUAD_2") if is_quad else ("BILATERAL", "TRI_1", "TRI_2")
@@ -161,37 +180,6 @@ def cost_table(costs: Iterable[Cost]) -> str:
         for cost in costs
     ]
     return markdown(head, body)
-
-
-def full_list(results: Results) -> str:
-    """Return every result, mesh by mesh."""
-    head = ["Algorithm", "Default: λ", "angle", "creases", "rms", "flips", "seconds"]
-    head += ["Best: λ or σc, σs", "angle", "creases", "rms", "flips"]
-    parts = []
-    for mesh in results.meshes():
-        noisy = results.noisy(mesh)
-        body = []
-        for row in results.rows:
-            if row.mesh == mesh and row.choice == "default":
-                best = results.get(mesh, row.algorithm, "best")
-                cells = [row.algorithm, _knobs(row), *_measured(row), f"{row.seconds:.2f}"]
-                body.append([*cells, _knobs(best), *_measured(best)])
-        angles = f"angle {noisy.angle:.2f}, at creases {_number(noisy.crease_angle)}"
-        text = f"Noisy: {angles}, rms {noisy.rms:.3f}, {noisy.flips} flips."
-        parts.append(f"## {_mesh(noisy)}\n\n{text}\n\n" + markdown(head, body))
-    return "\n".join(parts)
-
-
-def _knobs(row: Row) -> str:
-    """Return what was chosen: lambda, or the widths of the bilateral filter."""
-    if math.isnan(row.lambda_):
-        return f"{row.sigma_c:g}, {row.sigma_s:g}" if row.sigma_s else f"{row.sigma_c:g}, measured"
-    return f"{row.lambda_:.3g}" + ("*" if row.is_at_end else "")
-
-
-def _measured(row: Row) -> list[str]:
-    """Return the four measures of a result."""
-    return [f"{row.angle:.2f}", _number(row.crease_angle), f"{row.rms:.3f}", str(row.flips)]
 
 
 def _levels(number: int) -> str:

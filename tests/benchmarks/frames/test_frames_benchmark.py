@@ -72,9 +72,9 @@ def test_tables_can_be_written_again(quick, tmp_path):
     assert result.returncode == 0, result.stderr
     assert (tmp_path / "results.csv").read_text() == (quick / "results.csv").read_text()
     text = (tmp_path / "frames.md").read_text(encoding="utf-8")
-    for title in ("presets on triangles", "presets on quads", "stencils", "levels", "list"):
+    for title in ("presets on triangles", "presets on quads", "means", "stencils", "levels"):
         assert f"## {title}\n" in text
-    assert "made/box_tri (1,538)" in text
+    assert "| 1 of triangles | Tri-2 |" in text
 
 
 def test_unknown_mesh(tmp_path):

@@ -1,37 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Results of the noise benchmark as a page of Markdown."""
+"""Results of the noise benchmark as tables of Markdown."""
 
 from collections.abc import Iterable
 from typing import NamedTuple
-
-INTRODUCTION = """\
-# Noise estimate
-
-How well `estimate_noise` finds noise that was added to clean meshes. Written by
-
-```
-python3 .ci/environment.py run core -- tests/benchmarks/noise/run.py --update
-```
-
-which needs Python and NumPy only; every number is in `tests/benchmarks/noise/noise.csv`.
-
-Noise is Gaussian, along the normals or with the same standard deviation in each coordinate; levels are
-in mean edge lengths of the clean mesh. Numbers are estimate by truth, both in scene units: the mean
-over {seeds} draws, and behind it the worst draw where that is off by more than 15 %. *Clean* is the
-estimate on the clean mesh in edge lengths: grain, or detail too fine for the mesh. *Impulsive* noise
-moves half of the vertices by 0.5 edge lengths along the normals: the ratio is that of `rms`, and behind
-it in how many draws `is_impulsive` was true.
-
-Off are the smallest meshes on which most patches touch a crease, `quad/bamboopen1146`,
-`quad/fandisk766` and `mixed/suzanne507`: a few dozen patches without one remain, which scatter, or
-none. At 0.1 the fine relief of `tri/armadillo43k` counts as noise, for it is as fine as the mesh.
-Strong noise is underestimated by a few percent, because a fit to noise turns its plane into it.
-
-The method was developed on the models of `tri` and `quad`, so that their figures are not of unseen
-meshes; those of `mixed` were not used.
-
-"""
 
 LIMIT = 0.15
 
@@ -54,25 +26,40 @@ class Row(NamedTuple):
     seconds: float
 
 
-def page(rows: list[Row]) -> str:
-    """Return the page."""
-    seeds = len({row.seed for row in rows})
-    gaussian = [row for row in rows if row.kind in ("normals", "directions")]
-    within = sum(abs(row.ratio - 1.0) <= LIMIT for row in gaussian)
+def level_table(rows: list[Row]) -> str:
+    """Return how far estimates are from the truth, a line for each strength of the noise."""
+    head = ["Noise, edge lengths", "Estimates", "Estimate / truth, median", "Worst", "Within 15 %"]
+    lines = ["| " + " | ".join(head) + " |", "|---|" + "--:|" * (len(head) - 1)]
+    for kind, name in (("normals", "normals"), ("directions", "all directions"), ("impulsive", "impulsive")):
+        own = [row for row in rows if row.kind == kind]
+        for levels in ((0.1, 0.2, 0.3), (0.5, 0.7)):
+            ratios = sorted(row.ratio for row in own if row.level in levels)
+            if ratios:
+                worst = max(ratios, key=lambda ratio: abs(ratio - 1.0))
+                within = sum(abs(ratio - 1.0) <= LIMIT for ratio in ratios)
+                chosen = sorted({row.level for row in own} & set(levels))
+                cells = [f"{name}, {chosen[0]:g} to {chosen[-1]:g}" if len(chosen) > 1 else name]
+                cells += [str(len(ratios)), f"{ratios[len(ratios) // 2]:.2f}", f"{worst:.2f}", str(within)]
+                lines.append("| " + " | ".join(cells) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def summary(rows: list[Row]) -> str:
+    """Return how often impulsive noise is seen, and how long an estimate takes."""
     alarms = sum(row.is_impulsive for row in rows if row.kind != "impulsive")
     impulsive = [row for row in rows if row.kind == "impulsive"]
     recognized = sum(row.is_impulsive for row in impulsive)
     seconds = sum(row.seconds for row in rows) / len(rows)
-    summary = (
-        f"Of {len(gaussian)} estimates of Gaussian noise {within} are within 15 % of the truth.\n"
-        f"Impulsive noise was recognized in {recognized} of {len(impulsive)} draws, and seen where there\n"
-        f"was none in {alarms} of {len(rows) - len(impulsive)}. An estimate took {seconds:.2f} s on\n"
-        "average, neighborhoods not counted.\n\n"
+    return (
+        f"Impulsive noise was recognized in {recognized} of {len(impulsive)} draws, and seen where there was "
+        f"none in {alarms} of {len(rows) - len(impulsive)}. An estimate took {seconds:.2f} s.\n"
     )
-    text = INTRODUCTION.format(seeds=seeds) + summary
-    for kind, title in (("normals", "Along the normals"), ("directions", "In all directions")):
-        text += f"## {title}\n\n{_table(rows, kind)}\n"
-    return text.rstrip("\n") + "\n"
+
+
+def mesh_tables(rows: list[Row]) -> str:
+    """Return estimates by mesh: means over the draws, and in brackets the worst draw if it is far off."""
+    titles = {"normals": "Along the normals", "directions": "In all directions"}
+    return "\n".join(f"## {title}\n\n{_table(rows, kind)}" for kind, title in titles.items())
 
 
 def _table(rows: list[Row], kind: str) -> str:

@@ -17,18 +17,17 @@ from time import perf_counter
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "frames"))
 
-import checkout
+import checkout  # noqa: F401
 import numpy as np
 from cases import mesh_folder
 from framelet.core import SurfaceMesh, add_noise, connect, estimate_noise
 from framelet.core.mesh.geometry import mean_edge_length
 from made import MADE
 from mesh_files import read_mesh
-from noise_tables import Row, page
+from noise_tables import Row, level_table, mesh_tables, summary
 from records import read_records, write_records
+from science_page import update_page
 
-PAGE = checkout.ROOT / "docs" / "benchmarks_noise.md"
-FOLDER = Path(__file__).resolve().parent
 RESULTS = "noise.csv"
 LEVELS = (0.1, 0.2, 0.3, 0.5, 0.7)
 IMPULSIVE = 0.5
@@ -55,11 +54,12 @@ def main() -> int:
                 return 2
         rows = [row for name in names for row in measure(name, 1 if arguments.quick else arguments.seeds)]
     arguments.output.mkdir(parents=True, exist_ok=True)
-    (arguments.output / "noise.md").write_text(page(rows), encoding="utf-8")
+    text = f"{level_table(rows)}\n{summary(rows)}\n{mesh_tables(rows)}"
+    (arguments.output / "noise.md").write_text(text, encoding="utf-8")
     write_records(rows, arguments.output / RESULTS)
+    print(text)
     if arguments.update:
-        write_records(rows, FOLDER / RESULTS)
-        PAGE.write_text(page(rows), encoding="utf-8")
+        update_page({"noise estimate": level_table(rows)})
     print(f"Wrote noise.md and {RESULTS} in {arguments.output}.")
     return 0
 
@@ -71,12 +71,12 @@ def parse() -> argparse.Namespace:
     parser.add_argument("--quick", action="store_true", help="two small meshes made in code, one seed")
     parser.add_argument("--seeds", type=int, default=3, help="draws of each noise (default: %(default)s)")
     parser.add_argument(
-        "--output", type=Path, default=Path("build/benchmarks"), help="folder for the results"
+        "--output", type=Path, default=Path("build/benchmarks/noise"), help="folder for the results"
     )
     parser.add_argument(
-        "--again", type=Path, metavar="FOLDER", help="only write the page again, from a CSV file"
+        "--again", type=Path, metavar="FOLDER", help="only write the tables again, from a CSV file"
     )
-    parser.add_argument("--update", action="store_true", help="write docs/benchmarks_noise.md as well")
+    parser.add_argument("--update", action="store_true", help="write the table of levels into docs")
     return parser.parse_args()
 
 

@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[3]
+sys.path.append(str(ROOT / "tests" / "benchmarks"))
 
 if "framelet" not in sys.modules:
     spec = importlib.util.spec_from_file_location(

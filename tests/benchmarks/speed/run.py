@@ -15,12 +15,11 @@ from pathlib import Path
 
 import loading
 from plan import OTHERS, QUICK_SIZES, SIZES, make_plan
+from science_page import update_page
 from shapes import torus_file
-from tables import COLUMNS, full_table, read_rows, seconds_table, target_table, write_rows
+from tables import COLUMNS, PAGE_RUNS, full_table, read_rows, seconds_table, target_table, write_rows
 
 FOLDER = Path(__file__).resolve().parent
-PAGE = loading.ROOT / "docs" / "benchmarks_speed.md"
-PLOT = loading.ROOT / "docs" / "images" / "speed.png"
 TIMEOUT = 900
 """Seconds after which a run is given up."""
 
@@ -44,18 +43,14 @@ def main():
     (arguments.output / "speed.md").write_text(text, encoding="utf-8")
     write_rows(rows, arguments.output / "speed.csv")
     say(text)
-    plots = [arguments.output / "speed.png"]
     if arguments.update:
-        write_rows(rows, FOLDER / "results.csv")
-        update_page(sections)
-        plots.append(PLOT)
+        update_page({"speed": seconds_table(rows, PAGE_RUNS)})
     try:
         from plot import draw
     except ImportError:
         say("There is no matplotlib here, so there is no plot.")
     else:
-        for path in plots:
-            draw(rows, path)
+        draw(rows, arguments.output / "speed.png")
     return 0
 
 
@@ -84,7 +79,7 @@ def parse():
         "--output", type=Path, default=Path("build/benchmarks/speed"), help="folder for results"
     )
     parser.add_argument("--again", type=Path, metavar="CSV", help="only write tables and plot again")
-    parser.add_argument("--update", action="store_true", help="write the results into docs as well")
+    parser.add_argument("--update", action="store_true", help="write the table of seconds into docs")
     return parser.parse_args()
 
 
@@ -159,16 +154,6 @@ def python_of(environment):
     """Return the Python of an environment."""
     command = [sys.executable, str(loading.ROOT / ".ci" / "environment.py"), "path", environment]
     return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
-
-
-def update_page(sections):
-    """Put the tables between the marks of the page in docs."""
-    text = PAGE.read_text(encoding="utf-8")
-    for name, table in sections.items():
-        begin, end = f"<!-- {name} -->", f"<!-- end of {name} -->"
-        head, _, rest = text.partition(begin)
-        text = f"{head}{begin}\n\n{table}\n{end}{rest.partition(end)[2]}"
-    PAGE.write_text(text, encoding="utf-8")
 
 
 def say(text):

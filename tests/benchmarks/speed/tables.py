@@ -10,6 +10,18 @@ COLUMNS = (
     *("iteration", "floor", *STAGES),
 )
 WORDS = ("what", "order")
+PAGE_RUNS = (
+    "Automatic",
+    "Tri-2",
+    "Tri-2, one thread",
+    "Tri-2, shuffled",
+    "Adaptive, 3 levels",
+    "Tri-2 in Blender",
+    "Tri-2 in plain numpy",
+    "MeshLab, Taubin",
+    "MeshLab, two-step",
+)
+"""What the page shows."""
 
 
 def write_rows(rows, path):
@@ -62,10 +74,11 @@ def full_table(rows):
     return markdown(header, lines)
 
 
-def seconds_table(rows):
-    """Return seconds and peak memory by size, a line for each kind of run."""
-    sizes = sorted({row["asked"] for row in rows if row["asked"]})
-    names = list(dict.fromkeys(row["what"] for row in rows if row["asked"]))
+def seconds_table(rows, names=()):
+    """Return seconds and peak memory by size, a line for each kind of run, or for those that are named."""
+    measured = dict.fromkeys(row["what"] for row in rows if row["asked"])
+    names = [name for name in names if name in measured] or list(measured)
+    sizes = sorted({row["asked"] for row in rows if row["what"] in names and row["asked"]})
     header = ["seconds (peak in MB)", *(f"{int(size):,}" for size in sizes)]
     lines = []
     for name in names:
