@@ -1,6 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Taking back motions that fold the surface."""
+"""Taking back motions that fold the surface.
+
+A face is compared with the faces around it, not with itself in the input: under strong noise the input is
+folded, and a turn by more than a right angle is no fault. Damping every such turn was tried: on a noisy horse
+of 2,400 quads it raised the error of AUTO from 10.6 to 11.3 degrees.
+"""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Write the page with the signatures of all operators, docs/operators.md, from what Blender knows of them.
+"""Write docs/scripts/operators.md, the signatures of all operators, from what Blender knows of them.
 
 Run it on any supported Blender: the page is the same on all. A test compares the two.
 """
@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-PAGE = Path(__file__).resolve().parents[1] / "operators.md"
+PAGE = Path(__file__).resolve().parents[1] / "scripts" / "operators.md"
 
 INTRODUCTION = """\
 # Operators

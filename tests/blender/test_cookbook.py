@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-COOKBOOK = Path(__file__).resolve().parents[2] / "docs" / "cookbook.md"
+COOKBOOK = Path(__file__).resolve().parents[2] / "docs" / "scripts" / "cookbook.md"
 HEADING = re.compile(r"^## (\d+)\. .*$", re.MULTILINE)
 BLOCK = re.compile(r"^```python\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/operators.md says what Blender knows of the operators, on every version."""
+"""docs/scripts/operators.md says what Blender knows of the operators, on every version."""
 
 import importlib.util
 import re
@@ -20,12 +20,12 @@ def load_program():
 
 
 def test_the_page_is_up_to_date():
-    written = (DOCS / "operators.md").read_text("utf-8")
+    written = (DOCS / "scripts" / "operators.md").read_text("utf-8")
     assert written == load_program().page(), "run docs/demo/operator_page.py with Blender's Python"
 
 
 def test_every_operator_and_argument_is_on_it():
-    text = (DOCS / "operators.md").read_text("utf-8")
+    text = (DOCS / "scripts" / "operators.md").read_text("utf-8")
     for each in registration.classes:
         if not issubclass(each, bpy.types.Operator) or "INTERNAL" in each.bl_options:
             continue
@@ -38,7 +38,7 @@ def test_every_operator_and_argument_is_on_it():
 
 
 def test_defaults_can_be_passed_as_they_stand_there():
-    text = (DOCS / "operators.md").read_text("utf-8")
+    text = (DOCS / "scripts" / "operators.md").read_text("utf-8")
     for line in re.findall(r"^\| `\w+` \| `[^`]*` \|", text, re.M):
         name, default = re.match(r"\| `(\w+)` \| `([^`]*)` \|", line).groups()
         assert repr(eval(default, {})) == default, name
