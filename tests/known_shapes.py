@@ -44,11 +44,12 @@ def stairs(n_steps=3, size=6):
 
 
 @cache
-def part():
+def part(n_steps=3, size=6):
     """Return the same machine part of triangles."""
-    a, b, c, d = np.array(faces_of(stairs())).T
+    quads = stairs(n_steps, size)
+    a, b, c, d = np.array(faces_of(quads)).T
     faces = np.concatenate((np.stack((a, b, c), 1), np.stack((a, c, d), 1)))
-    return read_only(SurfaceMesh.from_faces(stairs().vertices, faces))
+    return read_only(SurfaceMesh.from_faces(quads.vertices, faces))
 
 
 def voxel_surface(inside):
