@@ -162,5 +162,7 @@ class OBJECT_OT_framelet_cancel(bpy.types.Operator):
 
     def execute(self, _context: bpy.types.Context) -> set[str]:
         """Cancel; the operator that is in charge of the run ends at its next tick."""
-        current_run().cancel()
+        run = current_run()
+        if run is not None:
+            run.cancel()
         return {"FINISHED"}

@@ -92,6 +92,7 @@ class OBJECT_OT_framelet_apply_preview(bpy.types.Operator):
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Write it, and report it as a run."""
         session = current_preview()
+        assert session is not None  # see `poll`
         try:
             written = session.apply(context.scene.framelet.output)
         except ValueError as error:

@@ -78,7 +78,7 @@ def choose_values(obj: bpy.types.Object, choice: BandChoice) -> BandValues:
 
     part = linear_part(obj)
     if choice.content == "LOW":
-        chosen = stored.low.astype(np.float64)[None] - stored.rest
+        chosen: NDArray[np.floating] = stored.low.astype(np.float64)[None] - stored.rest
     else:
         chosen = stored.details[choice.level - 1]
         if choice.content == "BAND":

@@ -136,7 +136,7 @@ def _value_type(item: Field) -> Callable[[str], Any]:
         except ValueError:
             raise argparse.ArgumentTypeError(f"{text!r} is not {wanted}") from None
         try:
-            DenoiseSettings(**{item.name: value})
+            DenoiseSettings().with_changes(**{item.name: value})
         except ValueError as error:
             raise argparse.ArgumentTypeError(str(error)) from None
         return value

@@ -7,7 +7,7 @@ from __future__ import annotations
 import argparse
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ...core.settings import DenoiseSettings
 from .arguments import HelpFormatter, add_frame_options, as_word
@@ -121,7 +121,7 @@ def _analyze(obj: bpy.types.Object, settings: DenoiseSettings, max_megabytes: fl
     return arrays | {"name": np.array(obj.name), "version": np.array(framelet_version())}
 
 
-def _write(arrays: dict[str, NDArray], path: Path) -> None:
+def _write(arrays: dict[str, Any], path: Path) -> None:
     """Write arrays into a file, whatever the case of its suffix."""
     import numpy as np
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Callable
 from dataclasses import Field, fields
+from typing import Any
 
 from ...core.settings.setting_info import SettingInfo
 from ..properties.region_options import RegionOptions
@@ -76,8 +77,9 @@ def _number_type(item: Field) -> Callable[[str], float]:
             value = float(text)
         except ValueError:
             raise argparse.ArgumentTypeError(f"{text!r} is not a number") from None
+        change: dict[str, Any] = {item.name: value}
         try:
-            RegionOptions(**{item.name: value})
+            RegionOptions(**change)
         except ValueError as error:
             raise argparse.ArgumentTypeError(str(error)) from None
         return value

@@ -42,7 +42,7 @@ def kind_refusal(obj: bpy.types.Object | None) -> str | None:
 def ownership_refusal(obj: bpy.types.Object | None) -> str | None:
     """Say in one sentence why nothing can be written to the mesh of an object; None if it can be."""
     reason = kind_refusal(obj)
-    if reason is not None:
+    if obj is None or reason is not None:
         return reason
     name, mesh = f"‘{obj.name}’", obj.data
     if mesh.library is not None:
@@ -68,7 +68,7 @@ def faces_refusal(obj: bpy.types.Object) -> str | None:
 def refusal(obj: bpy.types.Object | None) -> str | None:
     """Say in one sentence why the mesh of an object cannot be edited; None if it can be."""
     reason = ownership_refusal(obj)
-    if reason is not None:
+    if obj is None or reason is not None:
         return reason
     name = f"‘{obj.name}’"
     if obj.mode not in {"OBJECT", "EDIT"}:

@@ -77,6 +77,7 @@ def setting_property(item: Field, **options: Any) -> Any:
     if item.type == "int":
         return bpy.props.IntProperty(**common)
     end = info.maximum if info.soft_maximum is None else info.soft_maximum
+    assert end is not None  # every number has a range
     return bpy.props.FloatProperty(precision=4 if end <= 0.1 else 3, step=1 if end <= 1.0 else 10, **common)
 
 

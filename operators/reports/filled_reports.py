@@ -138,7 +138,7 @@ def _fill_belief(properties: BeliefMixin, measured: Collection[MeasuredReport]) 
     from ...core import NoiseBelief
 
     for name in BeliefMixin.__annotations__:
-        properties.property_unset(name)
+        properties.property_unset(name)  # type: ignore[attr-defined]  # of Blender's base class
     reports = [item.report for item in measured]
     beliefs = [report.noise for report in reports if isinstance(report.noise, NoiseBelief)]
     if len(beliefs) != len(reports):
@@ -150,9 +150,10 @@ def _fill_belief(properties: BeliefMixin, measured: Collection[MeasuredReport]) 
     for name in ("spikes", "clean"):
         shares = [count * getattr(belief, name) for count, belief in zip(counts, beliefs, strict=True)]
         setattr(properties, name, 100.0 * sum(shares) / sum(counts))
-    noisy = [item for item in measured if item.report.noise.sigma_high > 0.0]
+    pairs = zip(beliefs, measured, strict=True)
+    noisy = [(belief, item) for belief, item in pairs if belief.sigma_high > 0.0]
     for name, extreme in (("sigma_low", min), ("sigma_high", max)):
-        found = [(getattr(item.report.noise, name), item) for item in noisy]
+        found = [(getattr(belief, name), item) for belief, item in noisy]
         lengths = [item.scale * sigma for sigma, item in found]
         edges = [sigma / item.report.mean_edge_length for sigma, item in found]
         setattr(properties, name, extreme(lengths, default=0.0))

@@ -70,6 +70,7 @@ class DenoiseRun:
         self._jobs = jobs
         self._at = 0
         self._is_touched = self._is_started = False
+        self._progress: Callable[[float], None] | None = None
         self._worker: Worker[list[DenoiseOutcome | str]] = Worker(self._compute)
 
     @property
@@ -100,13 +101,9 @@ class DenoiseRun:
     def run_here(self, progress: Callable[[float], None] | None = None) -> None:
         """Compute on the calling thread, and call `progress(fraction)` meanwhile."""
         self.state, self._is_started = State.RUNNING, True
-        if progress is not None:
-            self._progress = progress
+        self._progress = progress
         self._worker.run_here()
         self._take_results()
-
-    def _progress(self, fraction: float) -> None:
-        """Do nothing with the progress; the thread's is read from `fraction`."""
 
     def touch(self, touched: set[int]) -> None:
         """Note the session numbers of objects and meshes that may have been edited.
@@ -193,7 +190,8 @@ class DenoiseRun:
 
             def advance(share: float, change: float, number: int = number) -> bool:
                 fraction = (sum(sizes[:number]) + share * sizes[number]) / sum(sizes)
-                self._progress(fraction)
+                if self._progress is not None:
+                    self._progress(fraction)
                 return worker.advance(fraction, change)
 
             try:

@@ -61,7 +61,8 @@ def stripe_colors(is_signed: bool, values: Iterable[float]) -> list[tuple[float,
     colormap = DIVERGING if is_signed else SEQUENTIAL
     span = colormap.high - colormap.low
     linear = map_colors(colormap, [colormap.low + value * span for value in values])
-    return [(*(_to_srgb(float(part)) for part in color[:3]), 1.0) for color in linear]
+    red, green, blue = ([_to_srgb(float(part)) for part in linear[:, axis]] for axis in range(3))
+    return [(*color, 1.0) for color in zip(red, green, blue, strict=True)]
 
 
 def _to_srgb(part: float) -> float:
@@ -111,7 +112,9 @@ def _draw() -> None:
 
 def _fill(rectangles: list[Rectangle], colors: list[tuple[float, float, float, float]]) -> None:
     """Fill rectangles, each with a color."""
-    points, corner_colors, triangles = [], [], []
+    points: list[tuple[float, float]] = []
+    corner_colors: list[tuple[float, float, float, float]] = []
+    triangles: list[tuple[int, int, int]] = []
     for rectangle, color in zip(rectangles, colors, strict=True):
         first = len(points)
         x, y, right, top = rectangle.x, rectangle.y, rectangle.right, rectangle.top

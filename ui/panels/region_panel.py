@@ -66,8 +66,9 @@ def _draw_group(
     button = row.row(align=True)
     button.active = bool(settings.vertex_group)
     button.prop(settings, "invert_group", text="", icon="ARROW_LEFTRIGHT")
-    is_named = obj is not None and obj.type == "MESH" and bool(settings.vertex_group)
-    if is_named and settings.vertex_group not in obj.vertex_groups:
+    if obj is None or obj.type != "MESH" or not settings.vertex_group:
+        return
+    if settings.vertex_group not in obj.vertex_groups:
         column.label(text=iface_("‘{name}’ has no such group").format(name=obj.name), icon="ERROR")
 
 
