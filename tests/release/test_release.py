@@ -48,7 +48,7 @@ def project_files():
     """Yield the files of the project, without those that tools have made."""
     for folder, folders, files in os.walk(ROOT):
         folders[:] = sorted(name for name in folders if not MADE.fullmatch(name))
-        yield from (Path(folder, name) for name in sorted(files))
+        yield from (Path(folder, name) for name in sorted(files) if not MADE.fullmatch(name))
 
 
 def python_files(*folders):
