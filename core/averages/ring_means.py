@@ -92,7 +92,7 @@ class RingMeans(Means):
         return total / counts.astype(points.dtype)
 
     def averaged(self, field: NDArray[np.floating], n_averages: int) -> NDArray[np.floating]:
-        """Return A^k of a field, shape (N, C), numbered as inside; A = (1 + P) / 2. The field is used up."""
+        """Return A^k of a field, shape (N, C), numbered as inside; A = (1 + P) / 2. Overwrites it."""
         return self._sums(field, [_power_series(n_averages)])[0]
 
     def low_passes(self, field: NDArray[np.floating], numbers: Sequence[int]) -> list[NDArray[np.floating]]:
@@ -108,7 +108,7 @@ class RingMeans(Means):
     def _sums(
         self, first: NDArray[np.floating], series: Sequence[Sequence[float]]
     ) -> list[NDArray[np.floating]]:
-        """Return sums of c_j T_j(P) x for several series of coefficients c_j; x may be used up."""
+        """Return sums of c_j T_j(P) x for several series of coefficients c_j; x may be overwritten."""
         dtype = first.dtype.type
         sums = [dtype(coefficients[0]) * first for coefficients in series]
         before = current = first

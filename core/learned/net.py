@@ -93,7 +93,7 @@ class Net:
     ) -> NDArray[np.float32]:
         """Return clean unit normals of the faces of a graph, shape (3, F).
 
-        `tick` is called after each layer. The normals of `scales` are used up.
+        `tick` is called after each layer. The normals of `scales` are overwritten.
         """
         return self.begun(scales, features, graph).normals(tick)
 

@@ -38,7 +38,7 @@ MOSTLY_FLAT = 0.5
 """Share of all triangles that are flat from which two in one plane are flat, too."""
 
 CLEAN = 0.004
-"""Leftovers of the fits, in local edge lengths, below which a two-ring is clean."""
+"""Residuals of the fits, in local edge lengths, below which a two-ring is clean."""
 
 FEW, MANY = 600, 8192
 """Two-rings that are looked at on any mesh, and on one that has clean ones among those."""
@@ -49,7 +49,7 @@ SOME_CLEAN = 0.03
 MOSTLY_CLEAN = 0.25
 """Share of clean two-rings around a vertex from which it stays: fits fail at creases of clean meshes too."""
 
-LEAST_FREEDOM = 3.0
+LEAST_DEGREES_OF_FREEDOM = 3.0
 """Degrees of freedom of a fit that says something."""
 
 LEAST_KNOWN = 0.2
@@ -186,7 +186,7 @@ def clean_places(
         ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
             own = centers[start:stop]
             found = fit_heights(positions, find_patches(adjacency, own))
-            is_known = found.freedom >= LEAST_FREEDOM
+            is_known = found.degrees_of_freedom >= LEAST_DEGREES_OF_FREEDOM
             return is_known, is_known & (found.variance < (CLEAN * unit[own]) ** 2)
 
         parts = blocks.sized(256).run(look, len(centers))

@@ -20,19 +20,19 @@ from ..stencils.boundary import boundary_corners
 class Constraints:
     """Vertices that do not move (`pinned`, shape (p,)) and those that move along a line only.
 
-    `railed`, shape (r,), are the latter; `rail`, shape (3, r), holds their unit directions.
+    `sliding`, shape (r,), are the latter; `slide_directions`, shape (3, r), holds their unit directions.
     """
 
     pinned: NDArray[np.intp]
-    railed: NDArray[np.intp]
-    rail: NDArray[np.floating]
+    sliding: NDArray[np.intp]
+    slide_directions: NDArray[np.floating]
 
     def apply(self, points: NDArray[np.floating], origin: NDArray[np.floating]) -> None:
         """Bring moved points, shape (3, N or more), back to where they may be, in place."""
-        if len(self.railed):
-            start = origin[:, self.railed]
-            along = ((points[:, self.railed] - start) * self.rail).sum(axis=0)
-            points[:, self.railed] = start + self.rail * along
+        if len(self.sliding):
+            start = origin[:, self.sliding]
+            along = ((points[:, self.sliding] - start) * self.slide_directions).sum(axis=0)
+            points[:, self.sliding] = start + self.slide_directions * along
         points[:, self.pinned] = origin[:, self.pinned]
 
     def with_pinned(self, vertices: NDArray[np.integer]) -> Constraints:
@@ -97,5 +97,5 @@ def find_constraints(
     if settings.method == "POSITIONS" and settings.shrinkage != "VECTOR":
         is_pinned[corners.vertices] = True
     is_free = ~is_pinned[corners.vertices]
-    rail = corners.normals[is_free].T.astype(dtype)
-    return Constraints(np.flatnonzero(is_pinned), corners.vertices[is_free], rail)
+    slide_directions = corners.normals[is_free].T.astype(dtype)
+    return Constraints(np.flatnonzero(is_pinned), corners.vertices[is_free], slide_directions)

@@ -18,7 +18,7 @@ from ..blocks import Blocks
 from ..mesh.carrier import Carrier
 from .constraints import Constraints
 from .face_watch import FaceState, FaceWatch
-from .folds import take_back
+from .folds import damp_until_valid
 from .motion import Motion
 from .placed import Placed
 from .region import Region
@@ -99,7 +99,7 @@ def _settled(
 ) -> NDArray[np.floating]:
     """Return the positions after a displacement, with folds taken back if that is wanted."""
     if region.repair_folds:
-        return take_back(watch, displacement, shares, blocks)
+        return damp_until_valid(watch, displacement, shares, blocks)
     vertices = watch.carrier.moved(displacement, blocks)
     watch.look(vertices)
     return vertices

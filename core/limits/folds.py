@@ -26,7 +26,7 @@ LAST_ROUND = 96
 """Rounds after which everything is put back."""
 
 
-def take_back(
+def damp_until_valid(
     watch: FaceWatch, displacement: NDArray[np.float64], shares: NDArray[np.float64], blocks: Blocks
 ) -> NDArray[np.floating]:
     """Damp the motion where the surface folds, until no face is worse than in the input.

@@ -143,10 +143,10 @@ def connect(
     valence = _valences(edges, count, odd, loops, n_corners)
 
     is_boundary = _marked(n_vertices, edges[odd[count[odd] == 1]])
-    broken = _marked(n_vertices, edges[odd[count[odd] > 2]])
-    broken[edges[loops]] = True
-    is_twisted = _marked(n_vertices, corner_vertex[half_edges.twisted])
-    is_twisted[half_edges.target[half_edges.twisted]] = True
+    non_manifold = _marked(n_vertices, edges[odd[count[odd] > 2]])
+    non_manifold[edges[loops]] = True
+    is_inconsistent = _marked(n_vertices, corner_vertex[half_edges.inconsistent])
+    is_inconsistent[half_edges.target[half_edges.inconsistent]] = True
 
     ring_offset = np.zeros(n_vertices + 1, np.int64)
     np.cumsum(valence, out=ring_offset[1:])
@@ -156,11 +156,13 @@ def connect(
         np.empty(ring_offset[-1], np.int32),
         np.empty((n_vertices, 2), np.int32),
     )
-    fill_rings(rings, surface, half_edges, n_corners, some_corner, broken, is_twisted, labels, blocks)
-    if broken.any():
+    fill_rings(
+        rings, surface, half_edges, n_corners, some_corner, non_manifold, is_inconsistent, labels, blocks
+    )
+    if non_manifold.any():
         is_real = count > 0
         is_real[loops] = False
-        _fill_unordered(edges[is_real], broken, rings, labels)
+        _fill_unordered(edges[is_real], non_manifold, rings, labels)
 
     size = surface.common_face_size()
     has_face = n_corners > 0
@@ -193,13 +195,13 @@ def connect(
         valence=valence,
         is_boundary=is_boundary,
         boundary_neighbors=rings.rim,
-        is_non_manifold=broken,
+        is_non_manifold=non_manifold,
         is_loose=~has_face,
         all_triangles=all_triangles,
         all_quads=all_quads,
         edge_face_count=count,
         face_across=face_across,
-        is_oriented=not len(half_edges.twisted),
+        is_oriented=not len(half_edges.inconsistent),
         has_quads=has_quads,
         has_triangle_pairs=has_triangle_pairs,
         labels=labels,
@@ -246,16 +248,16 @@ def _marked(n: int, indices: NDArray[np.integer]) -> NDArray[np.bool_]:
 
 def _fill_unordered(
     edges: NDArray[np.int32],
-    broken: NDArray[np.bool_],
+    non_manifold: NDArray[np.bool_],
     rings: Rings,
     labels: NDArray[np.int32] | None,
 ) -> None:
     """Give non-manifold vertices their edge neighbors in ascending order."""
     pairs = np.concatenate((edges, edges[:, ::-1]))
-    pairs = pairs[broken[pairs[:, 0]]]
+    pairs = pairs[non_manifold[pairs[:, 0]]]
     rank = pairs[:, 1] if labels is None else labels[pairs[:, 1]]
     order = np.lexsort((rank, pairs[:, 0]))
-    vertices = np.flatnonzero(broken)
+    vertices = np.flatnonzero(non_manifold)
     counts = np.diff(rings.offset)[vertices]
     begin = np.repeat(rings.offset[vertices] - (np.cumsum(counts) - counts), counts)
     rings.ring[begin + np.arange(len(begin))] = pairs[order, 1]

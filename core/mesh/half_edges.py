@@ -29,20 +29,20 @@ class HalfEdges:
         The vertex at the end of each half-edge.
     partner : ndarray, shape (C,), int32
         The other half-edge of an edge with exactly two faces, whatever its direction; -1 elsewhere.
-    is_twisted : ndarray, shape (C,), bool
+    is_inconsistent : ndarray, shape (C,), bool
         True if the partner runs in the same direction, so that the two faces disagree in orientation.
     edge_face_count : ndarray, shape (E,), int32
         Number of faces at each edge; 0 for loose edges.
-    twisted : ndarray, shape (t,), intp
-        The half-edges for which `is_twisted` is true.
+    inconsistent : ndarray, shape (t,), intp
+        The half-edges for which `is_inconsistent` is true.
     """
 
     surface: SurfaceMesh
     target: NDArray[np.int32]
     partner: NDArray[np.int32]
-    is_twisted: NDArray[np.bool_]
+    is_inconsistent: NDArray[np.bool_]
     edge_face_count: NDArray[np.int32]
-    twisted: NDArray[np.intp]
+    inconsistent: NDArray[np.intp]
 
     @cached_property
     def next_corner(self) -> NDArray[np.int32]:
@@ -81,7 +81,7 @@ def find_half_edges(surface: SurfaceMesh, blocks: Blocks | None = None) -> HalfE
     )
     target = shifted(vertex, surface, 1, blocks)
     partner = np.empty(n_corners, np.int32)
-    is_twisted = np.empty(n_corners, bool)
+    is_inconsistent = np.empty(n_corners, bool)
 
     def kernel(start: int, stop: int) -> tuple[bool, bool]:
         part, own = slice(start, stop), np.arange(start, stop, dtype=np.int32)
@@ -90,8 +90,8 @@ def find_half_edges(surface: SurfaceMesh, blocks: Blocks | None = None) -> HalfE
         has_others = bool(((low != own) & (high != own)).any())
         np.copyto(found, np.where(low == own, high, low))
         found[low == high] = -1
-        np.equal(vertex.take(found, mode="clip"), vertex[part], out=is_twisted[part])
-        is_twisted[part] &= found >= 0
+        np.equal(vertex.take(found, mode="clip"), vertex[part], out=is_inconsistent[part])
+        is_inconsistent[part] &= found >= 0
         return has_others, bool((target[part] == vertex[part]).any())
 
     found = blocks.run(kernel, n_corners)
@@ -99,7 +99,7 @@ def find_half_edges(surface: SurfaceMesh, blocks: Blocks | None = None) -> HalfE
         count = np.bincount(edge, minlength=surface.n_edges).astype(np.int32)
         is_many = count[edge] > 2
         partner[is_many] = -1
-        is_twisted[is_many] = False
+        is_inconsistent[is_many] = False
     else:
         count = np.empty(surface.n_edges, np.int32)
 
@@ -112,9 +112,9 @@ def find_half_edges(surface: SurfaceMesh, blocks: Blocks | None = None) -> HalfE
         # A face that names a vertex twice in a row has an edge from it to itself: no partner can be told.
         loops = target == vertex
         partner[loops] = -1
-        is_twisted[loops] = False
-    twisted = blocks.indices(lambda start, stop: is_twisted[start:stop], n_corners)
-    return HalfEdges(surface, target, partner, is_twisted, count, twisted)
+        is_inconsistent[loops] = False
+    inconsistent = blocks.indices(lambda start, stop: is_inconsistent[start:stop], n_corners)
+    return HalfEdges(surface, target, partner, is_inconsistent, count, inconsistent)
 
 
 def last_corners(

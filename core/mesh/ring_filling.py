@@ -34,8 +34,8 @@ def fill_rings(
     half_edges: HalfEdges,
     n_corners: NDArray[np.intp],
     first: NDArray[np.int32],
-    broken: NDArray[np.bool_],
-    is_twisted: NDArray[np.bool_],
+    non_manifold: NDArray[np.bool_],
+    is_inconsistent: NDArray[np.bool_],
     labels: NDArray[np.int32] | None,
     blocks: Blocks,
 ) -> None:
@@ -53,9 +53,9 @@ def fill_rings(
         Number of corners at each vertex.
     first : ndarray, shape (N,), int32
         A corner of each vertex, if it has one; changed.
-    broken : ndarray, shape (N,), bool
+    non_manifold : ndarray, shape (N,), bool
         Vertices that are known to have no single fan; those that are found to have none are added.
-    is_twisted : ndarray, shape (N,), bool
+    is_inconsistent : ndarray, shape (N,), bool
         Vertices where neighboring faces disagree in orientation.
     labels : ndarray, shape (N,), int32, or None
         By which numbers a neighbor is the lowest-numbered one; None for their own.
@@ -68,25 +68,25 @@ def fill_rings(
         part = slice(start, stop)
         rings.corner[rings.offset[start] : rings.offset[stop]] = -1
         rings.rim[part] = -1
-        sizes = np.where(broken[part], 0, n_corners[part])
-        twisted = np.flatnonzero(is_twisted[part] & (sizes > 0))
-        sizes[twisted] = 0
+        sizes = np.where(non_manifold[part], 0, n_corners[part])
+        inconsistent = np.flatnonzero(is_inconsistent[part] & (sizes > 0))
+        sizes[inconsistent] = 0
         long = np.flatnonzero(sizes > LONGEST_WALK)
         sizes[long] = 0
         for size in np.flatnonzero(np.bincount(sizes)):
             if size:
-                _fill_short(rings, corners, start + np.flatnonzero(sizes == size), int(size), broken)
-        return start + long, start + twisted
+                _fill_short(rings, corners, start + np.flatnonzero(sizes == size), int(size), non_manifold)
+        return start + long, start + inconsistent
 
     found = blocks.run(kernel, surface.n_vertices)
     wanted = np.concatenate([np.zeros(0, np.intp), *(long for long, _ in found)])
     if len(wanted):
         walks = walk(corners.following, corners.first[wanted], corners.vertex, corners.keys(), blocks)
         source = corners.vertex[half_edges.previous_corner]
-        _store(_Fans(walks, wanted, corners.target, source, 1), rings, n_corners, broken)
-    wanted = np.concatenate([np.zeros(0, np.intp), *(twisted for _, twisted in found)])
+        _store(_Fans(walks, wanted, corners.target, source, 1), rings, n_corners, non_manifold)
+    wanted = np.concatenate([np.zeros(0, np.intp), *(inconsistent for _, inconsistent in found)])
     if len(wanted):
-        _store(_walk_darts(surface, half_edges, wanted, labels, blocks), rings, n_corners, broken)
+        _store(_walk_darts(surface, half_edges, wanted, labels, blocks), rings, n_corners, non_manifold)
 
 
 class _Corners(NamedTuple):
@@ -119,9 +119,9 @@ def _make_corners(
 
 
 def _fill_short(
-    rings: Rings, corners: _Corners, vertices: NDArray[np.intp], size: int, broken: NDArray[np.bool_]
+    rings: Rings, corners: _Corners, vertices: NDArray[np.intp], size: int, non_manifold: NDArray[np.bool_]
 ) -> None:
-    """Fill the rings of vertices that have `size` corners each, or mark them as broken.
+    """Fill the rings of vertices that have `size` corners each, or mark them as non-manifold.
 
     In a fan the walk comes to its start or to an end after `size` steps and not before. No corner follows two
     others, so that a walk that is at its start then, but not for the first time, was there after a divisor.
@@ -140,7 +140,7 @@ def _fill_short(
     is_fan &= rings.offset[vertices + 1] - rings.offset[vertices] == size + is_open
     items = items[:size]
     if not is_fan.all():
-        broken[vertices[~is_fan]] = True
+        non_manifold[vertices[~is_fan]] = True
         vertices, items, is_open = vertices[is_fan], items[:, is_fan], is_open[is_fan]
         if not len(vertices):
             return
@@ -216,13 +216,13 @@ def _walk_darts(
     return _Fans(walks, vertices, pointed, pointed[turned], 2)
 
 
-def _store(fans: _Fans, rings: Rings, n_corners: NDArray[np.intp], broken: NDArray[np.bool_]) -> None:
-    """Copy the walks that are whole fans into the rings, and mark the vertices of the others as broken."""
+def _store(fans: _Fans, rings: Rings, n_corners: NDArray[np.intp], non_manifold: NDArray[np.bool_]) -> None:
+    """Copy the walks that are whole fans into the rings, and mark the other vertices as non-manifold."""
     walks, vertices = fans.walks, fans.vertices
     lengths = np.diff(walks.offset)
     is_fan = lengths == n_corners[vertices]
     is_fan &= lengths + walks.is_open == rings.offset[vertices + 1] - rings.offset[vertices]
-    broken[vertices[~is_fan]] = True
+    non_manifold[vertices[~is_fan]] = True
     place = np.arange(len(walks.items)) + np.repeat(rings.offset[vertices] - walks.offset[:-1], lengths)
     good = np.repeat(is_fan, lengths)
     rings.ring[place[good]] = fans.pointed[walks.items[good]]

@@ -15,15 +15,15 @@ from ..mesh.checks import check_surface
 from ..mesh.connectivity import Connectivity, connect
 from ..mesh.normalization import normalize
 from ..mesh.surface_mesh import SurfaceMesh
-from .fits import Leftovers, fit_heights
+from .fits import Residuals, fit_heights
 from .local_noise import (
     TOO_STEEP,
     LocalNoise,
     chi_squared_quantile,
     find_local_noise,
     kurtosis,
-    pick,
     scaled_quantile,
+    select_patches,
     without_shape,
 )
 from .patches import find_patches, local_adjacency, spread_sample
@@ -34,7 +34,7 @@ N_PATCHES = 8192
 PATCHES_AT_ONCE = 1024
 """Patches in a block: their temporaries take about 15 MB."""
 
-LEAST_FREEDOM = 3.0
+LEAST_DEGREES_OF_FREEDOM = 3.0
 """Degrees of freedom that a patch needs to say something about noise."""
 
 LARGEST_PART = 1 / 3
@@ -109,7 +109,7 @@ def estimate_noise(
     Notes
     -----
     A cubic height field is fitted to the two-ring of each vertex, or of `N_PATCHES` vertices spread over a
-    larger mesh (`fits`). Its leftovers have the variance of the noise times known degrees of freedom. Shape
+    larger mesh (`fits`). Its residuals have the variance of the noise times known degrees of freedom. Shape
     that is finer than the fit adds to them, at creases in some patches and elsewhere in all: the first is
     told apart by the distribution of the local variances (`local_noise`), the second by what the cubic terms
     take away beyond noise.
@@ -121,12 +121,14 @@ def estimate_noise(
     blocks = blocks or Blocks(1)
     connectivity = connectivity or connect(surface, blocks)
     positions = normalize(surface, connectivity, edge)
-    leftovers = _leftovers(positions, surface, connectivity, blocks)
-    if leftovers is None:
+    residuals = _residuals(positions, surface, connectivity, blocks)
+    if residuals is None:
         return NoiseEstimate(0.0, 0.0, 0.0, False, 0.0)
-    noise = find_local_noise(leftovers)
-    wide = pick(leftovers, noise.is_wide)
-    quiet = pick(wide, wide.variance <= noise.sigma**2 * chi_squared_quantile(wide.freedom, 0.9))
+    noise = find_local_noise(residuals)
+    wide = select_patches(residuals, noise.is_wide)
+    quiet = select_patches(
+        wide, wide.variance <= noise.sigma**2 * chi_squared_quantile(wide.degrees_of_freedom, 0.9)
+    )
     sigma = rms = noise.sigma * without_shape(quiet, noise.sigma)
     is_impulsive = _has_heavy_tails(noise, quiet, wide)
     if is_impulsive:
@@ -134,26 +136,28 @@ def estimate_noise(
     return NoiseEstimate(sigma * edge, sigma, sigma / _clean_edge(sigma), is_impulsive, rms * edge)
 
 
-def _leftovers(
+def _residuals(
     positions: NDArray[np.float64], surface: SurfaceMesh, connectivity: Connectivity, blocks: Blocks
-) -> Leftovers | None:
+) -> Residuals | None:
     """Return what the fits leave over, or None without a patch that is small in the mesh."""
     used = np.flatnonzero(~connectivity.is_loose)
     centers = spread_sample(positions, used, N_PATCHES)
     adjacency = local_adjacency(surface, connectivity, centers)
 
-    def kernel(start: int, stop: int) -> Leftovers:
+    def kernel(start: int, stop: int) -> Residuals:
         patches = find_patches(adjacency, centers[start:stop])
-        leftovers = fit_heights(positions, patches)
+        residuals = fit_heights(positions, patches)
         is_small = np.diff(patches.offset) <= LARGEST_PART * len(used)
-        return pick(leftovers, is_small & (leftovers.freedom >= LEAST_FREEDOM))
+        return select_patches(
+            residuals, is_small & (residuals.degrees_of_freedom >= LEAST_DEGREES_OF_FREEDOM)
+        )
 
     parts = blocks.sized(PATCHES_AT_ONCE).run(kernel, len(centers))
-    leftovers = Leftovers(*(np.concatenate(column) for column in zip(*parts, strict=True)))
-    return leftovers if len(leftovers.variance) else None
+    residuals = Residuals(*(np.concatenate(column) for column in zip(*parts, strict=True)))
+    return residuals if len(residuals.variance) else None
 
 
-def _has_heavy_tails(noise: LocalNoise, quiet: Leftovers, wide: Leftovers) -> bool:
+def _has_heavy_tails(noise: LocalNoise, quiet: Residuals, wide: Residuals) -> bool:
     """Return whether the noise is impulsive."""
     of_all = kurtosis(wide)
     if noise.sigma > LEAST_SIGMA and noise.rise < TOO_STEEP:

@@ -27,24 +27,24 @@ _N_QUADRIC = 6
 """Coefficients of a polynomial of degree 2, which come first."""
 
 
-class Leftovers(NamedTuple):
+class Residuals(NamedTuple):
     """What fits leave over, for each patch."""
 
     variance: NDArray[np.float64]
     """Estimate of the variance of noise along the normal, shape (n,), in squared units of the positions."""
-    freedom: NDArray[np.float64]
+    degrees_of_freedom: NDArray[np.float64]
     """Its degrees of freedom, shape (n,)."""
     cubic: NDArray[np.float64]
     """The same from what the cubic terms of the fit take away, shape (n,): shape shows here first."""
-    cubic_freedom: NDArray[np.float64]
+    cubic_degrees_of_freedom: NDArray[np.float64]
     """Its degrees of freedom, shape (n,)."""
     extent: NDArray[np.float64]
     """Standard deviation of the patch's vertices along its narrower tangent, shape (n,)."""
     studentized: NDArray[np.float64]
-    """Leftover of the center by its own standard deviation as the patch estimates it, shape (n,)."""
+    """Residual of the center by its own standard deviation as the patch estimates it, shape (n,)."""
 
 
-def fit_heights(positions: NDArray[np.float64], patches: Patches) -> Leftovers:
+def fit_heights(positions: NDArray[np.float64], patches: Patches) -> Residuals:
     """Fit a cubic polynomial to the heights of each patch over its principal plane.
 
     Parameters
@@ -68,21 +68,26 @@ def fit_heights(positions: NDArray[np.float64], patches: Patches) -> Leftovers:
     coefficients = np.einsum("nij,nj->ni", inverse_matrix, right)[row]
     covariance = inverse_matrix[row]
     residual = heights - np.einsum("pi,pi->p", basis, coefficients)
-    freedom_of_point = 1.0 - _quadratic(basis, covariance)
-    freedom = np.add.reduceat(freedom_of_point, begin)
-    variance = np.add.reduceat(residual**2, begin) / np.maximum(freedom, 1.0)
-    center_freedom = np.maximum(freedom_of_point[begin], _FLAT)
-    scale = np.sqrt(variance * center_freedom)
+    point_degrees_of_freedom = 1.0 - _quadratic(basis, covariance)
+    degrees_of_freedom = np.add.reduceat(point_degrees_of_freedom, begin)
+    variance = np.add.reduceat(residual**2, begin) / np.maximum(degrees_of_freedom, 1.0)
+    center_degrees_of_freedom = np.maximum(point_degrees_of_freedom[begin], _FLAT)
+    scale = np.sqrt(variance * center_degrees_of_freedom)
     studentized = np.divide(residual[begin], scale, out=np.zeros_like(scale), where=scale > 0)
     quadric = _Quadric(normal_matrix, right, row)
     slope = quadric.squared_slopes(
-        (along_u * inverse[row, :1], along_w * inverse[row, 1:]), variance, freedom_of_point, begin
+        (along_u * inverse[row, :1], along_w * inverse[row, 1:]), variance, point_degrees_of_freedom, begin
     )
     taken = np.add.reduceat((heights - quadric.values(basis)) ** 2 - residual**2, begin)
-    cubic_freedom = np.add.reduceat(1.0 - quadric.leverage(basis), begin) - freedom
-    cubic = np.maximum(taken, 0.0) / np.maximum(cubic_freedom, 1.0)
-    return Leftovers(
-        variance / (1.0 + slope), freedom, cubic / (1.0 + slope), cubic_freedom, extents[:, 0], studentized
+    cubic_degrees_of_freedom = np.add.reduceat(1.0 - quadric.leverage(basis), begin) - degrees_of_freedom
+    cubic = np.maximum(taken, 0.0) / np.maximum(cubic_degrees_of_freedom, 1.0)
+    return Residuals(
+        variance / (1.0 + slope),
+        degrees_of_freedom,
+        cubic / (1.0 + slope),
+        cubic_degrees_of_freedom,
+        extents[:, 0],
+        studentized,
     )
 
 

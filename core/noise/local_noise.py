@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .fits import Leftovers
+from .fits import Residuals
 
 SHARES = (1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.12)
 """Shares of the patches that may be free of shape."""
@@ -53,20 +53,20 @@ class LocalNoise(NamedTuple):
     is_wide: NDArray[np.bool_]
 
 
-def find_local_noise(leftovers: Leftovers) -> LocalNoise:
+def find_local_noise(residuals: Residuals) -> LocalNoise:
     """Find sigma and the patches to measure it on, which depend on each other."""
-    always = np.quantile(leftovers.extent, ALWAYS_WIDE)
-    is_wide = leftovers.extent >= always
+    always = np.quantile(residuals.extent, ALWAYS_WIDE)
+    is_wide = residuals.extent >= always
     found = LocalNoise(0.0, 0.0, 1.0, is_wide)
     for _ in range(ROUNDS):
-        found = _quiet_sigma(pick(leftovers, is_wide))._replace(is_wide=is_wide)
-        before, is_wide = is_wide, leftovers.extent >= min(WIDE_ENOUGH * found.sigma, always)
+        found = _quiet_sigma(select_patches(residuals, is_wide))._replace(is_wide=is_wide)
+        before, is_wide = is_wide, residuals.extent >= min(WIDE_ENOUGH * found.sigma, always)
         if (is_wide == before).all():
             break
     return found
 
 
-def _quiet_sigma(leftovers: Leftovers) -> LocalNoise:
+def _quiet_sigma(residuals: Residuals) -> LocalNoise:
     """Return sigma from the largest share of quiet patches that is distributed as white noise would be.
 
     Shape that the fits leave over only adds to the local variances. If a share w of the patches has none, the
@@ -76,7 +76,7 @@ def _quiet_sigma(leftovers: Leftovers) -> LocalNoise:
     """
     best = LocalNoise(0.0, np.inf, SHARES[-1], np.zeros(0, bool))
     for share in SHARES:
-        sigmas = [scaled_quantile(leftovers, place * share, place) for place in PLACES]
+        sigmas = [scaled_quantile(residuals, place * share, place) for place in PLACES]
         rise = sigmas[-1] / sigmas[0] - 1.0 if sigmas[0] > 0.0 else np.inf
         if rise < best.rise:
             best = LocalNoise(float(np.median(sigmas)), rise, share, best.is_wide)
@@ -87,41 +87,41 @@ def _quiet_sigma(leftovers: Leftovers) -> LocalNoise:
     return best
 
 
-def without_shape(leftovers: Leftovers, sigma: float) -> float:
+def without_shape(residuals: Residuals, sigma: float) -> float:
     """Return what to multiply sigma by so that relief which is in all patches does not count as noise."""
-    known = leftovers.cubic_freedom >= 1.0
+    known = residuals.cubic_degrees_of_freedom >= 1.0
     if not known.any() or sigma == 0.0:
         return 1.0
-    cubic = leftovers.cubic[known] / chi_squared_quantile(leftovers.cubic_freedom[known], 0.5)
+    cubic = residuals.cubic[known] / chi_squared_quantile(residuals.cubic_degrees_of_freedom[known], 0.5)
     excess = min(max(float(np.median(cubic)) / sigma**2 - 1.0, 0.0), MOST_EXCESS)
     return float(np.sqrt(1.0 - CUBIC_TO_REST * excess))
 
 
-def scaled_quantile(leftovers: Leftovers, quantile: float, place: float) -> float:
+def scaled_quantile(residuals: Residuals, quantile: float, place: float) -> float:
     """Return the sigma of white noise for which a quantile of the local variances is at the given place."""
-    scaled = leftovers.variance / chi_squared_quantile(leftovers.freedom, place)
+    scaled = residuals.variance / chi_squared_quantile(residuals.degrees_of_freedom, place)
     return float(np.sqrt(np.quantile(scaled, quantile)))
 
 
-def kurtosis(leftovers: Leftovers) -> float:
-    """Return the kurtosis of the centers' leftovers in units of that of Gaussian noise; 0 without any.
+def kurtosis(residuals: Residuals) -> float:
+    """Return the kurtosis of the centers' residuals in units of that of Gaussian noise; 0 without any.
 
-    Each leftover is studentized by its patch, so that patches with more shape or noise count no more than
+    Each residual is studentized by its patch, so that patches with more shape or noise count no more than
     others. With nu degrees of freedom its kurtosis is 3 nu / (nu + 2) for Gaussian noise.
     """
-    squares = leftovers.studentized**2
+    squares = residuals.studentized**2
     if not squares.any():
         return 0.0
-    expected = 3.0 * leftovers.freedom / (leftovers.freedom + 2.0)
+    expected = 3.0 * residuals.degrees_of_freedom / (residuals.degrees_of_freedom + 2.0)
     return float((squares**2).mean() / expected.mean() / squares.mean() ** 2)
 
 
-def chi_squared_quantile(freedom: NDArray[np.float64], place: float) -> NDArray[np.float64]:
+def chi_squared_quantile(degrees_of_freedom: NDArray[np.float64], place: float) -> NDArray[np.float64]:
     """Return a quantile of chi-squared by its degrees of freedom, after Wilson and Hilferty (1931)."""
-    spread = 2.0 / (9.0 * freedom)
+    spread = 2.0 / (9.0 * degrees_of_freedom)
     return np.maximum(1.0 - spread + NormalDist().inv_cdf(place) * np.sqrt(spread), 0.01) ** 3
 
 
-def pick(leftovers: Leftovers, which: NDArray[np.bool_]) -> Leftovers:
+def select_patches(residuals: Residuals, which: NDArray[np.bool_]) -> Residuals:
     """Return some of the patches."""
-    return Leftovers(*(column[which] for column in leftovers))
+    return Residuals(*(column[which] for column in residuals))

@@ -46,8 +46,8 @@ def test_half_edges_match_a_loop(name, threads):
     target = [v for face in faces_of(mesh) for v in face[1:] + face[:1]]
     assert found.target.tolist() == target
     owner = mesh.corner_vertex.tolist()
-    twisted = [p >= 0 and owner[p] == owner[c] for c, p in enumerate(partner)]
-    assert found.is_twisted.tolist() == twisted
+    inconsistent = [p >= 0 and owner[p] == owner[c] for c, p in enumerate(partner)]
+    assert found.is_inconsistent.tolist() == inconsistent
 
 
 @pytest.mark.parametrize("name", [*MESHES, *SPOILED])

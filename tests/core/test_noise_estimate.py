@@ -185,18 +185,26 @@ def test_fits_and_their_slow_twin(rng):
         terms = [(u / deviation) ** i * (w / deviation) ** j for i in range(4) for j in range(4 - i)]
         lower = [(u / deviation) ** i * (w / deviation) ** j for i in range(3) for j in range(3 - i)]
         hats = [np.stack(t, 1) @ np.linalg.pinv(np.stack(t, 1)) for t in (terms, lower)]
-        freedom = len(points) - np.trace(hats[0])
-        assert found.freedom[k] == pytest.approx(freedom, abs=1e-5)
+        degrees_of_freedom = len(points) - np.trace(hats[0])
+        assert found.degrees_of_freedom[k] == pytest.approx(degrees_of_freedom, abs=1e-5)
         assert found.extent[k] == pytest.approx(min(np.std(u), np.std(w)))
-        if freedom < 2:
+        if degrees_of_freedom < 2:
             continue
-        leftover, of_lower = h - hats[0] @ h, h - hats[1] @ h
-        center = leftover[0] / np.sqrt((leftover**2).sum() / freedom * (1 - hats[0][0, 0]))
+        residual, of_lower = h - hats[0] @ h, h - hats[1] @ h
+        center = residual[0] / np.sqrt((residual**2).sum() / degrees_of_freedom * (1 - hats[0][0, 0]))
         assert abs(found.studentized[k]) == pytest.approx(abs(center), rel=1e-4, abs=1e-4)
-        ratio = ((of_lower**2).sum() - (leftover**2).sum()) / (leftover**2).sum()
-        cubic = found.cubic[k] * max(found.cubic_freedom[k], 1) / (found.variance[k] * found.freedom[k])
+        ratio = ((of_lower**2).sum() - (residual**2).sum()) / (residual**2).sum()
+        cubic = (
+            found.cubic[k]
+            * max(found.cubic_degrees_of_freedom[k], 1)
+            / (found.variance[k] * found.degrees_of_freedom[k])
+        )
         assert cubic == pytest.approx(ratio, rel=1e-3, abs=1e-5)
-        assert 0.5 * (leftover**2).sum() < found.variance[k] * freedom <= (leftover**2).sum() * (1 + 1e-6)
+        assert (
+            0.5 * (residual**2).sum()
+            < found.variance[k] * degrees_of_freedom
+            <= (residual**2).sum() * (1 + 1e-6)
+        )
 
 
 @pytest.mark.parametrize("name", MESHES)
@@ -237,11 +245,11 @@ def test_sample_is_spread(rng):
     assert spread_sample(points, candidates, 2000) is candidates
 
 
-@pytest.mark.parametrize("freedom", [3, 5, 9, 15])
-def test_quantiles_of_chi_squared(freedom, rng):
-    draws = (rng.normal(size=(100_000, freedom)) ** 2).mean(axis=1)
+@pytest.mark.parametrize("degrees_of_freedom", [3, 5, 9, 15])
+def test_quantiles_of_chi_squared(degrees_of_freedom, rng):
+    draws = (rng.normal(size=(100_000, degrees_of_freedom)) ** 2).mean(axis=1)
     for place in (0.1, 0.25, 0.5, 0.75, 0.9):
-        quantile = chi_squared_quantile(np.array([float(freedom)]), place)[0]
+        quantile = chi_squared_quantile(np.array([float(degrees_of_freedom)]), place)[0]
         assert quantile == pytest.approx(np.quantile(draws, place), rel=0.03)
 
 

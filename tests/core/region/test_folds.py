@@ -8,7 +8,7 @@ from checks import AS_SOLVED, assert_same_bits, lengths
 from framelet.core import PRESETS, Region, SurfaceMesh, denoise
 from framelet.core.blocks import Blocks
 from framelet.core.limits.face_watch import DEGENERATE, FaceWatch
-from framelet.core.limits.folds import take_back
+from framelet.core.limits.folds import damp_until_valid
 from framelet.core.mesh.carrier import Carrier
 from framelet.core.mesh.connectivity import connect
 from framelet.core.mesh.corner_lists import corners_around
@@ -119,7 +119,7 @@ def test_any_motion_can_be_taken_back(name, sigma, rng):
     displacement = rng.normal(0, sigma * mean_edge_length(mesh), (3, mesh.n_vertices))
     displacement[:, rng.random(mesh.n_vertices) < 0.1] = 0.0
     shares = np.ones(mesh.n_vertices)
-    vertices = take_back(watch, displacement, shares, Blocks(2))
+    vertices = damp_until_valid(watch, displacement, shares, Blocks(2))
     again = watch_of(mesh)
     again.look(vertices)
     assert not again.is_bad().any()
@@ -136,7 +136,7 @@ def test_most_of_a_motion_is_kept(rng):
     mesh = noisy(triangle_torus(24, 32), rng, 0.05)
     displacement = rng.normal(0, 0.15 * mean_edge_length(mesh), (3, mesh.n_vertices))
     shares = np.ones(mesh.n_vertices)
-    take_back(watch_of(mesh), displacement, shares, Blocks(2))
+    damp_until_valid(watch_of(mesh), displacement, shares, Blocks(2))
     assert shares.mean() > 0.95
 
 
@@ -247,7 +247,7 @@ def test_the_number_of_calls_does_not_grow_with_the_mesh(rng):
         displacement = np.zeros((3, mesh.n_vertices))
         displacement[:, :4] = rng.normal(0, 2 * mean_edge_length(mesh), (3, 4))
         profile = cProfile.Profile()
-        profile.runcall(take_back, watch, displacement, np.ones(mesh.n_vertices), blocks)
+        profile.runcall(damp_until_valid, watch, displacement, np.ones(mesh.n_vertices), blocks)
         calls.append(pstats.Stats(profile).total_calls)
     assert calls[1] < 3 * calls[0]
     assert lengths(displacement.T).max() > 0
