@@ -1,34 +1,35 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Compare Framelet's presets with published filters at their best, on models, noises and seeds.
+"""Measure AUTO against published filters at their best, on models, noises and seeds.
 
-    python3 .ci/environment.py run benchmarks -- tests/benchmarks/quality/run.py
+    python3 .ci/environment.py run benchmarks -- tests/benchmarks/quality/run.py --rerun AUTO
 
 Meshes come from the folder that FRAMELET_MESHES names, by default shared/meshes beside the checkout; without
-one models are made in code. What is in the CSV files already is not run again.
+one models are made in code. `cases.csv` has the best baselines of the development meshes, so that only AUTO
+runs. `--methods LBNF GNF BILATERAL TAUBIN` runs the baselines again, which takes hours. What is in the output
+folder already is not run again, unless `--rerun` names it.
 """
 
 import argparse
+import math
 import os
 import sys
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
-from importlib.util import find_spec
 from multiprocessing import get_context
 from pathlib import Path
 from time import perf_counter
 
-import sources
+import sources  # noqa: F401
 from cases import QUICK_NOISES, SEEDS, CaseName, mesh_folder, model_names
 from measuring import Row, Task, run_task
-from methods import METHODS
+from methods import BASELINES, METHODS
 from noise import NOISES
-from results import Results
+from records import write_records
+from results import AUTO, KEPT, Line, combined, read_lines
+from science_page import update_page
 from store import Store
-from tables import full_table, method_table, model_table, problem_table, target_table, write_wide
-
-PAGE = sources.ROOT / "docs" / "benchmarks_quality.md"
-PLOT = sources.ROOT / "docs" / "images" / "quality.png"
+from tables import model_table, noise_table, summary, target_table
 
 
 def main() -> int:
@@ -36,7 +37,6 @@ def main() -> int:
     arguments = parse()
     if arguments.meshes:
         os.environ["FRAMELET_MESHES"] = str(arguments.meshes.resolve())
-    folder = arguments.output or (Path("build/quality") if arguments.quick else sources.FOLDER)
     try:
         names = model_names(arguments.only, arguments.quick)
         for method in (*arguments.methods, *arguments.rerun):
@@ -47,16 +47,26 @@ def main() -> int:
         return 2
     if mesh_folder() is None:
         say("There are no development meshes; models are made in code.")
-    store = Store(folder)
+    store = Store(arguments.output)
+    cases = cases_of(names, arguments)
     if not arguments.tables:
-        cases = cases_of(names, arguments)
+        methods = arguments.methods or (list(METHODS) if arguments.quick else [AUTO])
+        if not any(name in BASELINES for name in methods):
+            known = {line.case for line in combined(store.rows, read_lines())}
+            n_asked, cases = len(cases), [case for case in cases if case in known]
+            if len(cases) < n_asked:
+                say(f"{n_asked - len(cases)} cases have no baselines and are left out.")
         store.forget(arguments.rerun, cases)
-        methods = arguments.methods or list(METHODS)
         for method in METHODS.values():
             if method.name in methods and not method.is_available():
                 say(f"{method.name} is left out: its library is not installed here.")
         run_missing(store, cases, methods, arguments.processes)
-    write_results(store, folder, is_for_docs=arguments.update)
+    lines = combined(store.rows, read_lines())
+    write_results([line for line in lines if line.case in set(cases)], arguments.output)
+    if arguments.update:
+        write_records(lines, KEPT)
+        measured = measured_of(lines)
+        update_page({"quality": noise_table(measured), "quality targets": target_table(measured)})
     return 0
 
 
@@ -92,64 +102,50 @@ def run_tasks(tasks: list[Task], n_processes: int) -> Iterator[tuple[Task, list[
         yield from zip(tasks, pool.map(run_task, tasks), strict=True)
 
 
-def write_results(store: Store, folder: Path, is_for_docs: bool) -> None:
-    """Write the one table as a CSV file, the tables for people, and the plot."""
-    results = Results(store.rows)
-    if not results.cases:
+def write_results(lines: list[Line], folder: Path) -> None:
+    """Write and print the tables."""
+    measured = measured_of(lines)
+    if not measured:
         say("No case has results of AUTO and of the baselines yet; there is no table to write.")
         return
-    write_wide(results, folder / "results.csv")
-    sections = make_sections(results)
-    text = "\n".join(f"## {title}\n\n{table}" for title, table in sections.items())
-    (folder / "quality.md").write_text(text, encoding="utf-8")
-    if is_for_docs:
-        update_page(sections)
-    if find_spec("matplotlib") is None:
-        say("matplotlib is not installed here; the plot is left out.")
-    else:
-        from plot import draw
-
-        draw(results, PLOT if is_for_docs else folder / "quality.png")
-    say(f"Wrote results.csv and quality.md in {folder}" + (", and updated docs." if is_for_docs else "."))
-
-
-def make_sections(results: Results) -> dict[str, str]:
-    """Return the tables by the names that they have in the page."""
-    return {
-        "targets": target_table(results),
-        "methods": method_table(results),
-        "models": model_table(results),
-        "misses": problem_table(results),
-        "cases": full_table(results),
+    write_records(measured, folder / "cases.csv")
+    tables = {
+        "By noise": noise_table(measured),
+        "Targets": target_table(measured),
+        "By model": model_table(measured),
     }
+    text = "\n".join(f"## {title}\n\n{table}" for title, table in tables.items())
+    (folder / "quality.md").write_text(f"{text}\n{summary(measured)}\n", encoding="utf-8")
+    say(f"{text}\n{summary(measured)}")
 
 
-def update_page(sections: dict[str, str]) -> None:
-    """Put the tables between the marks of the page."""
-    text = PAGE.read_text(encoding="utf-8")
-    for name, table in sections.items():
-        begin, end = f"<!-- begin {name} -->\n", f"<!-- end {name} -->"
-        before, rest = text.split(begin, 1)
-        text = before + begin + table + end + rest.split(end, 1)[1]
-    PAGE.write_text(text, encoding="utf-8")
+def measured_of(lines: list[Line]) -> list[Line]:
+    """Return the lines with a result of AUTO."""
+    return [line for line in lines if not math.isnan(line.auto_angle)]
 
 
 def parse() -> argparse.Namespace:
     """Return the options."""
-    parser = argparse.ArgumentParser(description="Compare Framelet's presets with published filters.")
+    parser = argparse.ArgumentParser(description="Measure AUTO against published filters.")
     parser.add_argument("--meshes", type=Path, help="folder of the development meshes")
     parser.add_argument("--quick", action="store_true", help="two small models made in code, two noises")
     parser.add_argument("--only", nargs="+", default=[], metavar="MODEL", help="models, such as tri/fandisk")
-    parser.add_argument("--methods", nargs="+", default=[], metavar="METHOD", help=", ".join(METHODS))
+    parser.add_argument(
+        "--methods", nargs="+", default=[], metavar="METHOD", help=f"default: AUTO; {', '.join(METHODS)}"
+    )
     parser.add_argument("--noises", nargs="+", choices=list(NOISES), help="default: all")
     parser.add_argument("--seeds", nargs="+", type=int, help="default: 0 1 2; 0 is the one of tuning")
     parser.add_argument(
         "--rerun", nargs="+", default=[], metavar="METHOD", help="forget the results of these methods first"
     )
-    parser.add_argument("--tables", action="store_true", help="run nothing, only write tables and plot")
+    parser.add_argument("--tables", action="store_true", help="run nothing, only write the tables")
     parser.add_argument("--processes", type=int, default=1, help="runs at a time (default: %(default)s)")
-    parser.add_argument("--output", type=Path, help="folder of the CSV files (default: the benchmark's own)")
-    parser.add_argument("--update", action="store_true", help="write page and plot into docs")
+    parser.add_argument(
+        "--output", type=Path, default=Path("build/benchmarks/quality"), help="folder of what is measured"
+    )
+    parser.add_argument(
+        "--update", action="store_true", help="write cases.csv beside this file, and the tables in docs"
+    )
     return parser.parse_args()
 
 
