@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Half-edges of a polygon mesh: which corner lies across an edge.
 
-Corner c of a face is also the half-edge from its vertex to the vertex of the next corner.
+Corner c of a face is also the half-edge from its vertex to the vertex of the next corner. Nothing is sorted:
+all corners write their number to their edge, upwards and downwards, and the two corners of an edge stay.
 """
 
 from __future__ import annotations
