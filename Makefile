@@ -41,6 +41,7 @@ test-all: lint test-core test-training $(BLENDERS:%=test-%) $(BLENDERS:%=test-in
 lint: ## Check style and types
 	$(ENVIRONMENT) run core --timeout $(TIMEOUT) -- -m ruff check
 	$(ENVIRONMENT) run core --timeout $(TIMEOUT) -- -m ruff format --check
+	mkdir -p build/typing && ln -sfn ../.. build/typing/framelet
 	$(ENVIRONMENT) run core --timeout $(TIMEOUT) -- -m mypy
 
 .PHONY: format
