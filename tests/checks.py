@@ -7,6 +7,7 @@ from dataclasses import fields
 import numpy as np
 from framelet.core import Region
 from framelet.core.frames import BANKS
+from framelet.core.mesh.edge_list import find_edges
 from framelet.core.mesh.surface_mesh import SurfaceMesh
 
 AS_SOLVED = Region(repair_folds=False)
@@ -19,13 +20,28 @@ TRIANGLE_BANKS = {name: BANKS[name] for name in ("BOX_SPLINE_111", "BOX_SPLINE_1
 """The banks with the seven taps of a triangle stencil."""
 
 
+def wild_mesh(vertices, faces, loose_edges=()):
+    """Return a mesh of faces that the constructors may refuse: of two corners or less, or a vertex twice.
+
+    Other programs keep such faces, and so all methods have to cope with them.
+    """
+    vertices = np.asarray(vertices)
+    vertices = vertices if vertices.dtype == np.float32 else vertices.astype(np.float64)
+    flat = np.array([int(v) for face in faces for v in face], np.int32)
+    offset = np.concatenate(([0], np.cumsum([len(face) for face in faces]))).astype(np.int32)
+    bare = SurfaceMesh.trusted(vertices, flat, flat, offset, np.zeros((0, 2), np.int32))
+    loose = np.asarray(loose_edges, np.int64).reshape(-1, 2)
+    edges, corner_edge = find_edges(flat, flat[bare.next_corner()], loose, len(vertices))
+    return SurfaceMesh.trusted(vertices, flat, corner_edge, offset, edges)
+
+
 def read_only(mesh):
     """Return a copy of a mesh whose arrays refuse to be written to."""
     arrays = {}
     for item in fields(SurfaceMesh):
         arrays[item.name] = getattr(mesh, item.name).copy()
         arrays[item.name].flags.writeable = False
-    return SurfaceMesh(**arrays)
+    return SurfaceMesh.trusted(**arrays)
 
 
 def assert_same_bits(first, second):

@@ -4,7 +4,7 @@
 
 import numpy as np
 import pytest
-from framelet.core import SurfaceMesh
+from checks import wild_mesh
 from framelet.core.blocks import Blocks
 from meshes import MESHES, soup
 
@@ -18,7 +18,7 @@ KINDS = {
     },
     "border": MESHES["irregular grid"],
     "soup": lambda: soup(0, shortest=1),
-    "empty faces": lambda: SurfaceMesh.from_faces(np.eye(5, 3), [(), (0, 1, 2), (), (2, 4, 0), (3,), ()]),
+    "empty faces": lambda: wild_mesh(np.eye(5, 3), [(), (0, 1, 2), (), (2, 4, 0), (3,), ()]),
 }
 KIND = pytest.mark.parametrize("kind", KINDS)
 BLOCKS = pytest.mark.parametrize("blocks", [ALONE, Blocks(1, 7)], ids=["one block", "blocks"])

@@ -3,7 +3,7 @@
 """Reads the development meshes: binary PLY and Wavefront OBJ, as far as those files use them."""
 
 import numpy as np
-from framelet.core.mesh.surface_mesh import SurfaceMesh
+from checks import wild_mesh
 
 
 def mesh_files(folder, *kinds):
@@ -16,7 +16,7 @@ def mesh_files(folder, *kinds):
 def read_mesh(path, dtype=np.float32):
     """Return the mesh of a file, with float32 positions unless told otherwise."""
     vertices, faces, loose = (_read_ply if path.suffix == ".ply" else _read_obj)(path)
-    return SurfaceMesh.from_faces(np.asarray(vertices, dtype).reshape(-1, 3), faces, loose)
+    return wild_mesh(np.asarray(vertices, dtype).reshape(-1, 3), faces, loose)
 
 
 def _read_obj(path):

@@ -9,7 +9,7 @@ from functools import cache
 from itertools import pairwise
 
 import numpy as np
-from checks import read_only
+from checks import read_only, wild_mesh
 from framelet.core.mesh.surface_mesh import SurfaceMesh
 
 
@@ -160,7 +160,7 @@ def turned_over(mesh, seed=0, share=0.5):
     """Return a mesh with a random share of its faces reversed."""
     rng = np.random.default_rng(seed)
     faces = [face[::-1] if rng.random() < share else face for face in faces_of(mesh)]
-    return SurfaceMesh.from_faces(mesh.vertices, faces, loose_edges_of(mesh))
+    return wild_mesh(mesh.vertices, faces, loose_edges_of(mesh))
 
 
 def three_pages():
@@ -175,16 +175,14 @@ def soup(seed, n_vertices=14, n_faces=12, shortest=3):
     rng = np.random.default_rng(seed)
     faces = [rng.integers(n_vertices, size=rng.integers(shortest, 7)).tolist() for _ in range(n_faces)]
     faces += [faces[0], faces[-1][::-1]]
-    return SurfaceMesh.from_faces(
-        rng.normal(size=(n_vertices, 3)), faces, rng.integers(n_vertices, size=(2, 2))
-    )
+    return wild_mesh(rng.normal(size=(n_vertices, 3)), faces, rng.integers(n_vertices, size=(2, 2)))
 
 
 def clean_soup(seed, n_vertices=9, n_faces=10):
     """Return random triangles of distinct vertices, few enough that many vertices stay manifold."""
     rng = np.random.default_rng(seed)
     faces = [rng.permutation(n_vertices)[:3].tolist() for _ in range(n_faces)]
-    return SurfaceMesh.from_faces(rng.normal(size=(n_vertices, 3)), faces)
+    return wild_mesh(rng.normal(size=(n_vertices, 3)), faces)
 
 
 def union(*meshes):
@@ -195,7 +193,7 @@ def union(*meshes):
         loose += (loose_edges_of(mesh) + n).tolist()
         points.append(mesh.vertices + np.array([20.0 * k, 0, 0], mesh.vertices.dtype))
         n += mesh.n_vertices
-    return SurfaceMesh.from_faces(np.concatenate(points), faces, loose)
+    return wild_mesh(np.concatenate(points), faces, loose)
 
 
 def noisy(mesh, rng, sigma=0.15):

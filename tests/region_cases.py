@@ -3,6 +3,7 @@
 """What tests of regions share: presets of all methods, measures by rings and edges, meshes with creases."""
 
 import numpy as np
+from checks import wild_mesh
 from framelet.core.mesh.geometry import face_normals
 from framelet.core.mesh.surface_mesh import SurfaceMesh
 from meshes import faces_of
@@ -76,7 +77,7 @@ def exploded(mesh):
     corners = mesh.corner_vertex
     sizes = mesh.face_sizes()
     faces = np.split(np.arange(len(corners)), np.cumsum(sizes)[:-1])
-    return SurfaceMesh.from_faces(mesh.vertices[corners], faces), corners
+    return wild_mesh(mesh.vertices[corners], faces), corners
 
 
 def renumbered(mesh, rng):
@@ -85,4 +86,4 @@ def renumbered(mesh, rng):
     faces = [np.roll(new[face], rng.integers(5)) for face in faces_of(mesh)]
     vertices = np.empty_like(mesh.vertices)
     vertices[new] = mesh.vertices
-    return SurfaceMesh.from_faces(vertices, [faces[k] for k in rng.permutation(len(faces))]), new
+    return wild_mesh(vertices, [faces[k] for k in rng.permutation(len(faces))]), new

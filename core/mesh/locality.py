@@ -184,7 +184,7 @@ def reorder(
 
     blocks.run(move, surface.n_faces)
     blocks.run(move_edges, len(edges))
-    renumbered = SurfaceMesh(
+    renumbered = SurfaceMesh.trusted(
         vertices=surface.vertices.take(old_number, axis=0),
         corner_vertex=moved_vertex,
         corner_edge=moved_edge,

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from .edge_list import find_edges
 from .linking import linked_groups
 from .surface_mesh import SurfaceMesh
 
@@ -123,8 +124,10 @@ def _close_pairs(points: NDArray[np.float64], distance: float) -> tuple[NDArray[
 
     The points are sorted into cells as wide as the distance; partners are in the same or an adjacent cell.
     """
-    low = points.min(axis=0, initial=0.0)
-    extent = float((points.max(axis=0, initial=0.0) - low).max()) if len(points) else 0.0
+    if not len(points):
+        return np.zeros(0, np.intp), np.zeros(0, np.intp)
+    low = points.min(axis=0)
+    extent = float((points.max(axis=0) - low).max())
     # Few enough cells that their numbers fit into 63 bits; larger cells only hold more points.
     width = max(distance, extent / 2**20) or 1.0
     cell = np.floor((points - low) / width).astype(np.int64) + 1
@@ -177,11 +180,6 @@ def _with_edges(
     """Return a mesh from the vertices of all corners and the sizes of the faces."""
     offset = np.concatenate(([0], np.cumsum(sizes))).astype(np.int32)
     corner = corner_vertex.astype(np.int32)
-    bare = SurfaceMesh(vertices, corner, corner, offset, np.zeros((0, 2), np.int32))
-    following = corner_vertex[bare.next_corner()]
-    n = max(len(vertices), 1)
-    ends = np.concatenate((np.stack((corner_vertex, following), axis=1), loose_edges))
-    key = ends.min(axis=1) * n + ends.max(axis=1)
-    unique, edge = np.unique(key, return_inverse=True)
-    edges = np.stack(np.divmod(unique, n), axis=1).astype(np.int32)
-    return SurfaceMesh(vertices, corner, edge.reshape(-1)[: len(corner)].astype(np.int32), offset, edges)
+    bare = SurfaceMesh.trusted(vertices, corner, corner, offset, np.zeros((0, 2), np.int32))
+    edges, edge = find_edges(corner, corner[bare.next_corner()], loose_edges, len(vertices))
+    return SurfaceMesh.trusted(vertices, corner, edge, offset, edges)

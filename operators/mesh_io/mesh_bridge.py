@@ -293,7 +293,7 @@ def read_arrays(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey | None) -> Surface
         mesh.attributes[".corner_vert"].data.foreach_get("value", corner_vertex)
         mesh.attributes[".corner_edge"].data.foreach_get("value", corner_edge)
         read_face_starts(mesh, face_offset[:-1])
-    return SurfaceMesh(vertices, corner_vertex, corner_edge, face_offset, edges)
+    return SurfaceMesh.trusted(vertices, corner_vertex, corner_edge, face_offset, edges)
 
 
 def read_positions(mesh: bpy.types.Mesh) -> NDArray[np.float32]:

@@ -4,8 +4,8 @@
 
 import numpy as np
 import pytest
-from checks import TRIANGLE_PRESETS, lengths, random_rotation
-from framelet.core import PRESETS, DenoiseSettings, SurfaceMesh, denoise
+from checks import TRIANGLE_PRESETS, lengths, random_rotation, wild_mesh
+from framelet.core import PRESETS, DenoiseSettings, denoise
 from meshes import (
     faces_of,
     flipped,
@@ -117,14 +117,14 @@ def test_renumbering(preset, mesh, rng):
     faces = [faces[k] for k in rng.permutation(len(faces))]
     vertices = np.empty_like(mesh.vertices)
     vertices[new] = mesh.vertices
-    other = SurfaceMesh.from_faces(vertices, faces, new[loose_edges_of(mesh)])
+    other = wild_mesh(vertices, faces, new[loose_edges_of(mesh)])
     assert_same(solved(other, preset)[new], solved(mesh, preset), mesh, ROUNDING)
 
 
 @AXIS_FREE
 def test_turning_all_faces_over(preset, mesh):
     faces = [face[::-1] for face in faces_of(mesh)]
-    other = SurfaceMesh.from_faces(mesh.vertices, faces, loose_edges_of(mesh))
+    other = wild_mesh(mesh.vertices, faces, loose_edges_of(mesh))
     assert_same(solved(other, preset), solved(mesh, preset), mesh, ROUNDING)
 
 

@@ -4,7 +4,7 @@
 
 import numpy as np
 import pytest
-from checks import TRIANGLE_PRESETS
+from checks import TRIANGLE_PRESETS, wild_mesh
 from framelet.core import PRESETS, SurfaceMesh, add_noise, denoise
 from framelet.core.blocks import BLOCK_SIZE
 from mesh_files import mesh_files, read_mesh
@@ -137,7 +137,7 @@ def test_huge_and_tiny_meshes_are_cleaned():
 
 
 def test_faces_that_name_one_vertex_only():
-    mesh = SurfaceMesh.from_faces(
+    mesh = wild_mesh(
         [(0, 0, 0), (1, 0, 0), (0, 1, 0), (2, 2, 2)], [(0, 1, 2), (3, 3, 3), (1, 1, 2), (0,), ()]
     )
     for preset in TRIANGLE_PRESETS:

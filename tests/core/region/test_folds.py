@@ -4,8 +4,8 @@
 
 import numpy as np
 import pytest
-from checks import AS_SOLVED, assert_same_bits, lengths
-from framelet.core import PRESETS, Region, SurfaceMesh, denoise
+from checks import AS_SOLVED, assert_same_bits, lengths, wild_mesh
+from framelet.core import PRESETS, Region, denoise
 from framelet.core.blocks import Blocks
 from framelet.core.limits.face_watch import DEGENERATE, FaceWatch
 from framelet.core.limits.folds import damp_until_valid
@@ -85,7 +85,7 @@ def test_flat_meshes_and_smooth_ones_have_no_folds():
 
 def test_degenerate_faces_are_counted(rng):
     points = [[0, 0, 0], [1, 0, 0], [2, 0, 0], [0, 1, 0], [1, 1, 0]]
-    mesh = SurfaceMesh.from_faces(points, [(0, 1, 2), (0, 1, 3), (1, 4, 3), (1, 1, 4)])
+    mesh = wild_mesh(points, [(0, 1, 2), (0, 1, 3), (1, 4, 3), (1, 1, 4)])
     watch = watch_of(mesh)
     assert watch.before.is_degenerate.tolist() == [True, False, False, True]
     vertices = mesh.vertices.copy()

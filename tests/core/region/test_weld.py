@@ -2,9 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Unwelded meshes are denoised as if they were welded, and stay unwelded."""
 
+import tracemalloc
+
 import numpy as np
 import pytest
-from checks import assert_same_bits, edge_length, lengths
+from checks import assert_same_bits, edge_length, lengths, wild_mesh
 from framelet.core import PRESETS, PreparationCache, Region, SurfaceMesh, denoise, prepare
 from framelet.core.mesh.connectivity import connect
 from framelet.core.mesh.weld import make_weld, same_places
@@ -42,6 +44,19 @@ def test_points_on_a_lattice_are_joined_at_exactly_the_distance():
     assert make_weld(mesh, 1.0).vertex.tolist() == groups_by_a_loop(mesh.vertices, 1.0)
 
 
+@pytest.mark.parametrize("origin", [0.0, 1e6, 5e6])
+def test_the_cost_of_welding_does_not_depend_on_where_the_mesh_is(origin):
+    """Georeferenced scans lie millions of units from the origin."""
+    soup, _ = exploded(triangle_grid(40, 40))
+    soup = soup.with_vertices(0.01 * soup.vertices.astype(np.float64) + [origin, origin, 0.0])
+    tracemalloc.start()
+    weld = make_weld(soup, 1e-5)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert weld.surface.n_vertices == triangle_grid(40, 40).n_vertices
+    assert peak < 1000 * soup.n_vertices
+
+
 def test_zeros_of_both_signs_are_one_place():
     points = np.array([[0.0, 1, 2], [-0.0, 1, 2], [0, 1, 3], [0, 1, 2]], np.float32)
     assert same_places(points).tolist() == [0, 0, 1, 0]
@@ -69,7 +84,7 @@ def test_an_exploded_mesh_is_put_together_again(make):
 def test_faces_that_collapse_are_left_out():
     points = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 0], [1, 1, 0], [2, 0, 0]]
     faces = [(0, 1, 2, 3), (0, 4, 1), (0, 1, 5, 4), (0, 1, 4, 3), (1, 6, 2), (0, 1, 2, 5, 3)]
-    weld = make_weld(SurfaceMesh.from_faces(points, faces, [(0, 4), (5, 6)]), 0.0)
+    weld = make_weld(wild_mesh(points, faces, [(0, 4), (5, 6)]), 0.0)
     assert weld.vertex.tolist() == [0, 1, 2, 3, 0, 2, 4]
     assert weld.face.tolist() == [0, 2, 4, 5]
     assert [sorted(face) for face in faces_of(weld.surface)] == [
