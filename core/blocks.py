@@ -12,6 +12,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from threading import Lock
 from types import TracebackType
 from typing import Any, TypeVar
 
@@ -108,12 +109,12 @@ class Blocks:
         results: list[Any] = [None] * len(starts)
         errors: dict[int, BaseException] = {}
         # Every thread, the calling one too, takes the next number when it is done with a block: to hand out
-        # blocks one by one would cost as much as a small kernel. Taking a number is atomic.
-        numbers = iter(range(len(starts)))
+        # blocks one by one would cost as much as a small kernel.
+        numbers = _Numbers(len(starts))
 
         def work(check: Callable[[], None]) -> int:
             n_taken = 0
-            for number in numbers:
+            while (number := numbers.take()) is not None:
                 n_taken += 1
                 try:
                     check()
@@ -121,8 +122,7 @@ class Blocks:
                     results[number] = kernel(start, min(start + self.block_size, n_items))
                 except BaseException as error:
                     errors[number] = error
-                    for _ in numbers:  # nothing is left for the others
-                        pass
+                    numbers.stop()  # nothing is left for the others
             return n_taken
 
         pool = self._owner._pool
@@ -146,6 +146,32 @@ class Blocks:
     def together(self, *tasks: Callable[[], Any]) -> list[Any]:
         """Call functions at the same time, as far as there are threads, and return what they return."""
         return self.sized(1).run(lambda start, _: tasks[start](), len(tasks))
+
+
+class _Numbers:
+    """Numbers from 0 to below a count, each for one of the threads that take them.
+
+    The lock is what makes it right: an iterator that threads share is safe only as long as Python runs one
+    of them at a time.
+    """
+
+    def __init__(self, count: int) -> None:
+        self._lock = Lock()
+        self._next, self._count = 0, count
+
+    def take(self) -> int | None:
+        """Return the next number, or None if there is none left."""
+        with self._lock:
+            number = self._next
+            if number >= self._count:
+                return None
+            self._next = number + 1
+            return number
+
+    def stop(self) -> None:
+        """Give out no more numbers."""
+        with self._lock:
+            self._count = 0
 
 
 def _no_question() -> None:

@@ -14,7 +14,7 @@ from .blocks import Blocks
 from .limits.placed import Placed
 from .mesh.connectivity import Connectivity
 from .mesh.surface_mesh import SurfaceMesh
-from .prepared import Prepared, prepare, prepare_again
+from .prepared import Prepared, prepare_again
 from .settings import DenoiseSettings
 
 MAX_BYTES = 2**30
@@ -49,7 +49,7 @@ class PreparationCache:
     ) -> Prepared:
         """Return what `core.prepared.prepare` returns, made anew only as far as it has to be.
 
-        The arrays of the mesh are kept, and must not be changed afterwards.
+        The mesh may be edited in place afterwards: arrays that can be written to are copied.
         """
         with Blocks(settings.threads) as blocks:
             known = (kept for kept in reversed(self._kept) if kept.has_topology_of(surface, blocks))
@@ -101,7 +101,7 @@ def prepared_for(
     if isinstance(known, PreparationCache):
         return known.prepare(surface, settings, dtype, should_stop)
     if known is None:
-        return prepare(surface, settings, connectivity=connectivity, dtype=dtype, should_stop=should_stop)
+        return prepare_again(surface, settings, None, connectivity, dtype, should_stop, is_kept=False)
     if not known.fits(surface, settings, dtype):
         raise ValueError("This was prepared for another mesh or other stencils; prepare it again.")
     return known

@@ -46,7 +46,7 @@ class Prepared:
     Attributes
     ----------
     surface : SurfaceMesh
-        The mesh that it was made for. Its arrays must not be changed as long as this is used.
+        The mesh that it was made for; nobody can write to its arrays.
     reordering : Reordering or None
         The same mesh with other numbers, if that makes the work faster; the arrays below go by them.
     connectivity : Connectivity
@@ -166,7 +166,7 @@ def prepare(
     Parameters
     ----------
     surface : SurfaceMesh
-        The noisy surface; not modified, and kept.
+        The noisy surface; not modified. It is kept, as a copy where its arrays can be written to.
     settings : DenoiseSettings, optional
         Method, frame, stencil, levels, boundary and shrinkage count; by default those of the preset AUTO.
     connectivity : Connectivity, optional
@@ -204,10 +204,19 @@ def prepare_again(
     connectivity: Connectivity | None = None,
     dtype: DTypeLike = np.float32,
     should_stop: Callable[[], bool] | None = None,
+    *,
+    is_kept: bool = True,
 ) -> Prepared:
-    """Do what `prepare` does, with something `previous` that is known to have the topology of the mesh."""
+    """Do what `prepare` does, with something `previous` that is known to have the topology of the mesh.
+
+    Unless `is_kept`, nobody may write to the mesh as long as the result is used, so that it is not copied.
+    """
     if previous is not None and previous.fits_positions(surface, settings, dtype):
         return previous
+    if is_kept:
+        # Of a mesh that is known only the positions are new.
+        known = surface if previous is None else previous.surface
+        surface = known.with_vertices(surface.vertices).frozen()
     prepared = _prepare(surface, settings, previous, connectivity, dtype, should_stop)
     give_back(surface.n_vertices)
     return prepared

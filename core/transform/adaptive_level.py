@@ -144,14 +144,18 @@ class AdaptiveLevel:
 
     def _gathered(self, slots: NDArray[np.floating]) -> Points:
         """Sum values of all taps, shape (C, slots), to the vertices under them, and divide by the measure."""
+        return self._summed(slots, np.divide(1.0, self.measure, dtype=slots.dtype))
+
+    def _summed(self, slots: NDArray[np.floating], share: NDArray[np.floating] | None = None) -> Points:
+        """Sum values of all taps, shape (C, slots), to the vertices under them, times a share (N,)."""
         result = np.empty((len(slots), self._n), slots.dtype)
-        share = np.divide(1.0, self.measure, dtype=slots.dtype)
         sources = self._sources
 
         def kernel(index: int, _: int) -> None:
             vertices, places = sources[index]
             total = slots.take(places, axis=1).sum(axis=1)
-            total *= share[vertices]
+            if share is not None:
+                total *= share[vertices]
             result[:, vertices] = total
 
         self._blocks.run(kernel, len(sources))
@@ -259,9 +263,17 @@ class AdaptiveLevel:
             result[axis] += self._gathered(slots)[0]
         return result
 
-    def adjoint(self, next_low: Points, chunks: Sequence[Chunk]) -> Points:
+    def weighted_adjoint(self, next_low: Points, chunks: Sequence[Chunk]) -> Points:
         """Apply the adjoint with respect to the measures, which is the inverse."""
         return self.backward(next_low, self.pending(chunks))
+
+    def adjoint(self, next_low: Points, chunks: Sequence[Chunk]) -> Points:
+        """Apply the transposed matrix of this level."""
+        slots = np.empty((3, self._n_slots), self._dtype)
+        for chunk, high in zip(self._chunks, chunks, strict=True):
+            coefficients = np.concatenate((next_low[:, None, chunk.vertices], high), axis=1)
+            slots[:, chunk.place] = chunk.bank.apply_transposed(coefficients).reshape(3, -1)
+        return self._summed(slots)
 
 
 def _make_bank(

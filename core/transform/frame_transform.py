@@ -43,14 +43,21 @@ class FrameTransform:
         return np.ascontiguousarray(low.T)
 
     def adjoint(self, coefficients: FrameCoefficients) -> NDArray[np.floating]:
-        """Apply the adjoint W*, shape (N, 3).
-
-        With masks that fit the valence it is taken with respect to `measures` and is the inverse; otherwise
-        it is the transposed matrix.
-        """
+        """Apply the adjoint W', the transposed matrix, shape (N, 3): <W S, c> = <S, W' c> in every frame."""
         low = np.ascontiguousarray(coefficients.low.T, self.dtype)
         for level, chunks in zip(reversed(self.levels), reversed(coefficients.chunks), strict=True):
             low = level.adjoint(low, chunks)
+        return np.ascontiguousarray(low.T)
+
+    def weighted_adjoint(self, coefficients: FrameCoefficients) -> NDArray[np.floating]:
+        """Apply the adjoint with respect to `measures`, shape (N, 3): <W S, c>_m' = <S, W* c>_m.
+
+        With masks that fit the valence it is the inverse. In other frames all measures are 1, and it is
+        the same as `adjoint`.
+        """
+        low = np.ascontiguousarray(coefficients.low.T, self.dtype)
+        for level, chunks in zip(reversed(self.levels), reversed(coefficients.chunks), strict=True):
+            low = level.weighted_adjoint(low, chunks)
         return np.ascontiguousarray(low.T)
 
     def measures(self) -> list[NDArray[np.floating]]:
@@ -72,7 +79,7 @@ class FrameTransform:
         -------
         ndarray, shape (3, N)
             What is to be added to the positions: as everything is linear and the positions are rebuilt
-            perfectly, they need not go all the way. Valid until the transform is used again.
+            perfectly, they need not go all the way. Valid until this thread uses the transform again.
         """
         waiting = []
         for index, (level, visit) in enumerate(zip(self.levels, visits, strict=True), 1):

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Sequence
 
 import numpy as np
@@ -22,6 +23,13 @@ TAPS_PER_BLOCK = 2**18
 def _block_size(n_taps: int) -> int:
     """Return the number of sites in a block, a power of two."""
     return 2 ** max(10, (TAPS_PER_BLOCK // n_taps).bit_length() - 1)
+
+
+class _Scratch(threading.local):
+    """Arrays that are used again at the next call, for each calling thread its own."""
+
+    points: NDArray[np.floating] | None = None
+    detail: NDArray[np.floating] | None = None
 
 
 class LatticeLevel:
@@ -65,8 +73,8 @@ class LatticeLevel:
         self._rows = bank.reconstruction[:, bands].astype(dtype)
         starts = range(0, stencil.n_sites, blocks.block_size)
         self.sites = [slice(start, min(start + blocks.block_size, stencil.n_sites)) for start in starts]
-        self._points = np.empty((3, stencil.n_points), dtype)
-        self._detail: NDArray[np.floating] | None = None  # sums of the high bands, made on first use
+        self._dtype = np.dtype(dtype)
+        self._scratch = _Scratch()
         self._incidence = None if stencil.is_vertex_centered else _Incidence(stencil, len(self._rows), dtype)
 
     @property
@@ -96,7 +104,10 @@ class LatticeLevel:
         self, low: Points, visit: Visit, *, needs_low: bool = True
     ) -> tuple[Points, NDArray[np.floating]]:
         """Analyze a surface and begin to rebuild it; see `Level`."""
-        stencil, points = self.stencil, self._points
+        stencil, scratch = self.stencil, self._scratch
+        points = scratch.points
+        if points is None:
+            points = scratch.points = np.empty((3, stencil.n_points), self._dtype)
 
         def copy(start: int, stop: int) -> None:
             points[:, start:stop] = low[:, start:stop]
@@ -106,9 +117,9 @@ class LatticeLevel:
         # Averages over sites need a low-pass where a vertex is in none.
         needs_low = needs_low or self._incidence is not None
         site_low = np.empty((3, stencil.n_sites), points.dtype) if needs_low else None
-        if self._detail is None:
-            self._detail = np.empty((len(self._rows), 3, stencil.n_sites), points.dtype)
-        detail = self._detail
+        detail = scratch.detail  # sums of the high bands
+        if detail is None:
+            detail = scratch.detail = np.empty((len(self._rows), 3, stencil.n_sites), self._dtype)
 
         def kernel(start: int, stop: int) -> None:
             own_low = None if site_low is None else site_low[:, start:stop]
@@ -133,7 +144,7 @@ class LatticeLevel:
 
     def pending(self, chunks: Sequence[Chunk]) -> NDArray[np.floating]:
         """Return what given high bands add to the rebuilt surface; see `Level`."""
-        detail = np.empty((len(self._rows), 3, self.n_sites), self._points.dtype)
+        detail = np.empty((len(self._rows), 3, self.n_sites), self._dtype)
         for part, chunk in zip(self.sites, chunks, strict=True):
             self._weigh(chunk, detail[:, :, part])
         return detail[0] if self._incidence is None else self._incidence.mean(detail)
@@ -151,6 +162,10 @@ class LatticeLevel:
     def backward(self, next_low: Points | None, pending: NDArray[np.floating]) -> Points:
         """Rebuild the surface; see `Level`."""
         return pending if next_low is None else next_low + pending
+
+    def weighted_adjoint(self, next_low: Points, chunks: Sequence[Chunk]) -> Points:
+        """Apply the transposed matrix: all measures are 1."""
+        return self.adjoint(next_low, chunks)
 
     def adjoint(self, next_low: Points, chunks: Sequence[Chunk]) -> Points:
         """Apply the transposed matrix of this level.
@@ -177,7 +192,7 @@ class LatticeLevel:
         for axis in range(3):
             weights = stencil.virtual_weight * spread[axis, owner]
             result[axis] += np.bincount(stencil.virtual_vertex, weights, stencil.n_vertices)
-        return result.astype(self._points.dtype)
+        return result.astype(self._dtype)
 
 
 class _Incidence:

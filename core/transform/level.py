@@ -70,7 +70,7 @@ class Level(Protocol):
             Low-pass of this level, on the vertices; `low` itself if it is not wanted.
         pending : ndarray
             What the (changed) high bands add to the rebuilt surface; for `backward`. The level may use this
-            array again when it is called the next time.
+            array again when the same thread calls it the next time.
         """
         ...
 
@@ -83,5 +83,9 @@ class Level(Protocol):
         ...
 
     def adjoint(self, next_low: Points, chunks: Sequence[Chunk]) -> Points:
-        """Apply the adjoint of the level to its low-pass and high bands."""
+        """Apply the transposed matrix of the level to its low-pass and high bands."""
+        ...
+
+    def weighted_adjoint(self, next_low: Points, chunks: Sequence[Chunk]) -> Points:
+        """Apply the adjoint with respect to the measures of the level's input and output."""
         ...

@@ -4,13 +4,15 @@
 
 import cProfile
 import pstats
+import sys
 import threading
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
 from checks import TRIANGLE_PRESETS, assert_same_bits
 from framelet.core import PRESETS, SurfaceMesh, add_noise, compare, connect, denoise, make_stencil
-from framelet.core.blocks import BLOCK_SIZE, Blocks, Stopped, available_cores
+from framelet.core.blocks import BLOCK_SIZE, Blocks, Stopped, _Numbers, available_cores
 from framelet.core.mesh.geometry import mean_edge_length
 from meshes import flipped, mixed_sheet, noisy, pyramid, triangle_grid, triangle_torus, turned_over, union
 
@@ -256,3 +258,21 @@ def test_alone_runs_on_the_calling_thread_and_stops_with_the_others():
         with pytest.raises(Stopped):
             alone.run(lambda start, stop: None, 10)
         assert blocks.n_threads == 2 and alone.block_size == 10
+
+
+def test_every_block_is_taken_once():
+    """By whatever threads, which here are changed as often as Python can."""
+    interval = sys.getswitchinterval()
+    sys.setswitchinterval(1e-7)
+    try:
+        for _ in range(20):
+            numbers = _Numbers(2000)
+            with ThreadPoolExecutor(8) as pool:
+                taken = list(pool.map(lambda _, own=numbers: list(iter(own.take, None)), range(8)))
+            assert sorted(number for part in taken for number in part) == list(range(2000))
+    finally:
+        sys.setswitchinterval(interval)
+    numbers = _Numbers(3)
+    assert numbers.take() == 0
+    numbers.stop()
+    assert numbers.take() is None

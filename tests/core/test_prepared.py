@@ -22,6 +22,13 @@ def settings_of(preset, **changes):
     return PRESETS[preset].settings.with_changes(**changes)
 
 
+def with_array(mesh, name, array):
+    """Return a mesh with another array, which need not fit the others."""
+    return SurfaceMesh.trusted(
+        **{item.name: getattr(mesh, item.name) for item in fields(mesh)} | {name: array}
+    )
+
+
 @pytest.mark.parametrize("preset", [*POSITIONS, *OTHERS])
 @pytest.mark.parametrize("mesh", [flipped(triangle_torus()), triangle_grid(), mixed_sheet()])
 def test_runs_on_a_prepared_mesh_have_the_same_bits(preset, mesh, rng):
@@ -63,14 +70,45 @@ def test_one_other_number_anywhere_does_not_fit(name, threads, rng, monkeypatch)
     for place in range(getattr(mesh, name).size):
         array = getattr(mesh, name).copy()
         array.flat[place] += 1
-        other = replace(mesh, **{name: array})
+        other = with_array(mesh, name, array)
         assert not prepared.fits(other, settings)
         with Blocks(threads) as blocks:
             assert prepared.has_topology_of(other, blocks) == (name == "vertices")
     longer = np.concatenate((getattr(mesh, name), getattr(mesh, name)[-1:]))
-    assert not prepared.fits(replace(mesh, **{name: longer}), settings)
+    assert not prepared.fits(with_array(mesh, name, longer), settings)
     assert prepared.fits(read_only(mesh), settings)
     assert cache.prepare(read_only(mesh), settings) is prepared
+
+
+@pytest.mark.parametrize("preset", ["AUTO", "TRI_2", "BILATERAL"])
+def test_an_edit_in_place_is_seen(preset, rng):
+    """The arrays of the caller may be written to, by himself or through a view, after they were prepared."""
+    settings, cache = settings_of(preset), PreparationCache()
+    torus = noisy(triangle_torus(), rng)
+    mesh = SurfaceMesh.from_faces(torus.vertices, faces_of(torus))
+    prepared = prepare(mesh, settings)
+    denoise(mesh, settings, prepared=cache)
+    mesh.vertices[:] += rng.normal(0.0, 0.1, mesh.vertices.shape)
+    assert_same_bits(denoise(mesh, settings, prepared=cache).vertices, denoise(mesh, settings).vertices)
+    assert not prepared.fits(mesh, settings)
+    faces = mesh.corner_vertex.reshape(-1, 3)
+    edges = mesh.corner_edge.reshape(-1, 3)
+    faces[:], edges[:] = faces[:, ::-1].copy(), edges[:, [1, 0, 2]]  # every face turned over
+    again = SurfaceMesh(**{item.name: getattr(mesh, item.name) for item in fields(mesh)})
+    assert_same_bits(denoise(mesh, settings, prepared=cache).vertices, denoise(again, settings).vertices)
+
+
+def test_only_arrays_that_can_be_written_to_are_copied(rng):
+    mesh = noisy(triangle_torus(), rng)
+    kept = prepare(mesh).surface
+    assert not np.shares_memory(kept.vertices, mesh.vertices)
+    with pytest.raises(ValueError, match="read-only"):
+        kept.vertices[0] = 0.0
+    frozen = read_only(mesh)
+    assert prepare(frozen).surface.vertices is frozen.vertices
+    view = mesh.with_vertices(mesh.vertices[:])
+    view.vertices.flags.writeable = False  # but not what it is a view of
+    assert not np.shares_memory(prepare(view).surface.vertices, mesh.vertices)
 
 
 def test_memory_is_given_back_only_after_something_was_prepared(rng, monkeypatch):
@@ -91,7 +129,7 @@ def test_any_other_array_does_not_fit(name, rng):
     prepared = prepare(mesh)
     array = getattr(mesh, name).copy()
     array.flat[7] = array.flat[7] + 1
-    other = replace(mesh, **{name: array})
+    other = with_array(mesh, name, array)
     assert not prepared.fits(other, PRESETS["AUTO"].settings)
     with pytest.raises(ValueError, match="prepared for another mesh or other stencils"):
         denoise(other, prepared=prepared)
@@ -213,7 +251,7 @@ def test_faces_of_the_prepared_mesh_are_those_of_the_caller(rng, monkeypatch):
     monkeypatch.setattr(module, "is_scattered", lambda _: True)
     mesh = noisy(mixed_sheet(), rng)
     prepared = prepare(mesh)
-    assert prepared.surface is mesh
+    assert prepared.surface.vertices.tobytes() == mesh.vertices.tobytes()
     assert sorted(map(len, faces_of(prepared.ordered))) == sorted(map(len, faces_of(mesh)))
 
 
