@@ -68,7 +68,7 @@ def denoise(
 
     Raises
     ------
-    ValueError
+    FrameletError
         In one sentence, if the mesh has no faces, no size or positions that are not finite, if `movable` or
         the region does not fit it, if `prepared` is for something else, or if memory does not suffice.
     """

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from .blocks import Blocks
+from .errors import SettingError
 from .limits.constraints import find_constraints
 from .mesh.checks import check_surface
 from .mesh.connectivity import Connectivity, connect
@@ -59,7 +60,7 @@ def equalize(
 
     Raises
     ------
-    ValueError
+    SettingError
         In one sentence, if there is no gain, a gain is not a number from 0 to 100, the weights do not fit,
         the frame does not fit the mesh, or the mesh is too small for so many levels.
 
@@ -86,7 +87,7 @@ def equalize(
         )
         coefficients = transform.analyze(normalized).scaled([gain - 1.0 for gain in gains])
         change = transform.synthesize(coefficients.without_low()).T.astype(np.float64)
-    settings = DenoiseSettings(boundary=boundary)
+    settings = DenoiseSettings(method="POSITIONS", boundary=boundary)
     constraints = find_constraints(surface, connectivity, settings, None, change.dtype)
     constraints.apply(change, np.zeros_like(change))
     if weights is not None:
@@ -95,16 +96,20 @@ def equalize(
 
 
 def _check(gains: Sequence[float], weights: NDArray[np.floating] | None, n_vertices: int) -> None:
-    """Raise ValueError unless gains and weights can be used."""
+    """Raise SettingError unless gains and weights can be used."""
     if not len(gains):
-        raise ValueError("There are no gains; give one for each level, finest first.")
+        raise SettingError("There are no gains; give one for each level, finest first.")
     for level, gain in enumerate(gains, 1):
         if not 0.0 <= gain <= HIGHEST_GAIN:  # also refuses NaN
-            raise ValueError(f"The gain of level {level} is {gain:g}; it must be from 0 to {HIGHEST_GAIN:g}.")
+            raise SettingError(
+                f"The gain of level {level} is {gain:g}; it must be from 0 to {HIGHEST_GAIN:g}."
+            )
     if weights is not None:
         if np.shape(weights) != (n_vertices,):
-            raise ValueError(f"The weights have shape {np.shape(weights)}; expected ({n_vertices},).")
+            raise SettingError(f"The weights have shape {np.shape(weights)}; expected ({n_vertices},).")
         wrong = ~((weights >= 0.0) & (weights <= 1.0))  # NaN is wrong, too
         if wrong.any():
             vertex = int(np.flatnonzero(wrong)[0])
-            raise ValueError(f"The weight of vertex {vertex} is {weights[vertex]:g}; it must be from 0 to 1.")
+            raise SettingError(
+                f"The weight of vertex {vertex} is {weights[vertex]:g}; it must be from 0 to 1."
+            )

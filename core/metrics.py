@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from .errors import MeshError
 from .mesh.geometry import face_normals, mean_edge_length
 from .mesh.surface_mesh import SurfaceMesh
 
@@ -42,25 +43,25 @@ def compare(surface: SurfaceMesh, reference: SurfaceMesh) -> Comparison:
 
     Raises
     ------
-    ValueError
+    MeshError
         If the meshes have different numbers of vertices or different faces, or no faces, or no size.
     """
     if surface.n_vertices != reference.n_vertices:
-        raise ValueError(
+        raise MeshError(
             f"The meshes have {surface.n_vertices} and {reference.n_vertices} vertices; "
             "only meshes with the same topology can be compared."
         )
     if not np.array_equal(surface.face_offset, reference.face_offset) or not np.array_equal(
         surface.corner_vertex, reference.corner_vertex
     ):
-        raise ValueError(
+        raise MeshError(
             "The meshes have different faces; only meshes with the same topology can be compared."
         )
     if not surface.n_faces:
-        raise ValueError("The meshes have no faces; there is nothing to compare.")
+        raise MeshError("The meshes have no faces; there is nothing to compare.")
     edge = mean_edge_length(reference)
     if not edge > 0.0:
-        raise ValueError("The reference has no size: all its faces have shrunk to points.")
+        raise MeshError("The reference has no size: all its faces have shrunk to points.")
     distance = np.linalg.norm(surface.vertices.astype(np.float64) - reference.vertices, axis=1)
     angle = normal_angles(face_normals(surface), face_normals(reference))
     angle = angle[np.isfinite(angle)]

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import DTypeLike
 
 from .blocks import Blocks
+from .errors import FrameletError
 from .limits.placed import Placed
 from .mesh.connectivity import Connectivity
 from .mesh.surface_mesh import SurfaceMesh
@@ -92,7 +93,7 @@ def prepared_for(
 
     Raises
     ------
-    ValueError
+    FrameletError
         If what was prepared is for another mesh or other stencils.
     """
     surface = placed.surface
@@ -103,7 +104,7 @@ def prepared_for(
     if known is None:
         return prepare_again(surface, settings, None, connectivity, dtype, should_stop, is_kept=False)
     if not known.fits(surface, settings, dtype):
-        raise ValueError("This was prepared for another mesh or other stencils; prepare it again.")
+        raise FrameletError("This was prepared for another mesh or other stencils; prepare it again.")
     return known
 
 

@@ -13,7 +13,7 @@ from .preview import targets
 from .preview.current_preview import end_preview
 from .properties.region_settings import RegionMixin
 from .properties.region_values import shown_region_names, to_region_options
-from .properties.setting_values import PROPERTY_NAMES, fill, has_effect, is_replaced, to_settings
+from .properties.setting_values import PROPERTY_NAMES, all_values, fill, has_effect, is_replaced, to_settings
 from .properties.settings import OutputMixin, SettingsMixin
 from .properties.unused_values import unused_sentences
 from .run.current_run import IS_RUNNING, current_run, set_current
@@ -113,7 +113,7 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, RegionMixin, bpy.ty
             for sentence in unused_sentences(self, settings):
                 self.report({"WARNING"}, sentence)
         # The panel for adjusting the last operation shows the values that were used, defaults included.
-        fill(self, settings)
+        fill(self, all_values(self))
         end_preview()
         try:
             self._run: DenoiseRun = begin_run(

@@ -5,10 +5,11 @@
 from dataclasses import fields
 
 import numpy as np
-from framelet.core import Region
+from framelet.core import PRESETS, Region
 from framelet.core.frames import BANKS
 from framelet.core.mesh.edge_list import find_edges
 from framelet.core.mesh.surface_mesh import SurfaceMesh
+from framelet.core.settings import used_settings
 
 AS_SOLVED = Region(repair_folds=False)
 """Leaves the result of a solver as it is, for comparisons with twins and for figures of the methods."""
@@ -33,6 +34,12 @@ def wild_mesh(vertices, faces, loose_edges=()):
     loose = np.asarray(loose_edges, np.int64).reshape(-1, 2)
     edges, corner_edge = find_edges(flat, flat[bare.next_corner()], loose, len(vertices))
     return SurfaceMesh.trusted(vertices, flat, corner_edge, offset, edges)
+
+
+def preset_settings(preset, **changes):
+    """Return the settings of a preset, with those of the changes that its method uses."""
+    settings = PRESETS[preset].settings
+    return settings.with_changes(**used_settings({"method": settings.method} | changes))
 
 
 def read_only(mesh):

@@ -9,6 +9,7 @@ from math import comb, sqrt
 
 import numpy as np
 
+from ..errors import FrameError
 from .filter_bank import CELL_CORNERS, FilterBank
 from .linear_spline import TAPS_9
 
@@ -32,11 +33,11 @@ def b_spline(order: int) -> FilterBank:
 
     Raises
     ------
-    ValueError
+    FrameError
         If the order is not 1 to 6.
     """
     if order not in range(1, HIGHEST_ORDER + 1):
-        raise ValueError(f"The B-spline order is {order!r}; it must be 1 to {HIGHEST_ORDER}.")
+        raise FrameError(f"The B-spline order is {order!r}; it must be 1 to {HIGHEST_ORDER}.")
     filters = np.array([_filter(order, n) for n in range(order + 1)])
     first = -(order // 2)
     places = [(first + row, first + column) for row in range(order + 1) for column in range(order + 1)]

@@ -7,6 +7,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..errors import FrameError
+
 EXACT = 1e-12
 """Rounding that a property may be off by in float64."""
 
@@ -45,7 +47,7 @@ class FilterBank:
 
     Raises
     ------
-    ValueError
+    FrameError
         If shapes, row sums, the sum of squares (2.6) or the existence of v fail; the message names which.
     """
 
@@ -59,7 +61,7 @@ class FilterBank:
         self._check_row_sums()
         own, shifted = unitary_extension_defects(self.offsets, self.masks)
         if own > EXACT:
-            raise ValueError(
+            raise FrameError(
                 f"{name}: the masks do not satisfy the UEP (2.6), sum |a|^2 = 1; they are off by {own:.2g}."
             )
         self.is_tight = shifted <= EXACT
@@ -71,28 +73,28 @@ class FilterBank:
 
     def _check_shapes(self) -> None:
         if self.lattice not in ("TRIANGLES", "QUADS", "ANY"):
-            raise ValueError(
+            raise FrameError(
                 f"{self.name}: the lattice is {self.lattice!r}; it must be TRIANGLES, QUADS or ANY."
             )
         if self.offsets.ndim != 2 or self.offsets.shape[1] != 2 or not len(self.offsets):
-            raise ValueError(f"{self.name}: the offsets have shape {self.offsets.shape}; expected (T, 2).")
+            raise FrameError(f"{self.name}: the offsets have shape {self.offsets.shape}; expected (T, 2).")
         if self.masks.ndim != 2 or self.masks.shape[1] != len(self.offsets) or not len(self.masks):
-            raise ValueError(
+            raise FrameError(
                 f"{self.name}: the masks have shape {self.masks.shape}; expected (B, {len(self.offsets)})."
             )
         if not np.isfinite(self.masks).all():
-            raise ValueError(f"{self.name}: the masks hold numbers that are not finite.")
+            raise FrameError(f"{self.name}: the masks hold numbers that are not finite.")
         if len({tuple(place) for place in self.offsets.tolist()}) < len(self.offsets):
-            raise ValueError(f"{self.name}: two taps have the same place; give each place once.")
+            raise FrameError(f"{self.name}: two taps have the same place; give each place once.")
 
     def _find_centering(self) -> bool:
-        """Return whether the bank is cell-centered; raise ValueError if its taps are in the wrong order."""
+        """Return whether the bank is cell-centered; raise FrameError if its taps are in the wrong order."""
         reach = self.offsets.max(axis=0) + self.offsets.min(axis=0)
         is_cell = bool((reach == 1).all())
         centers = CELL_CORNERS if is_cell else ((0, 0),)
         first = [tuple(place) for place in self.offsets[: len(centers)].tolist()]
         if first != list(centers):
-            raise ValueError(f"{self.name}: the first taps are at {first}; they must be at {list(centers)}.")
+            raise FrameError(f"{self.name}: the first taps are at {first}; they must be at {list(centers)}.")
         return is_cell
 
     def _check_row_sums(self) -> None:
@@ -101,7 +103,7 @@ class FilterBank:
         off = np.abs(self.masks.sum(axis=1) - expected)
         if off.max() > EXACT:
             row = int(off.argmax())
-            raise ValueError(
+            raise FrameError(
                 f"{self.name}: mask {row} sums to {self.masks[row].sum():.6g}; "
                 f"it must sum to {expected[row]:g}."
             )
@@ -188,7 +190,7 @@ def reconstruction_rows(
 
     Raises
     ------
-    ValueError
+    FrameError
         If no such row exists, so that the masks cannot tell the vertex from its neighbors.
     """
     delta = np.eye(n_centers, masks.shape[1])
@@ -196,5 +198,5 @@ def reconstruction_rows(
     rows[np.abs(rows) < EXACT] = 0.0
     off = np.abs(rows @ masks - delta).max()
     if off > EXACT:
-        raise ValueError(f"{name}: no row v gives v M = delta_0 (nearest: off by {off:.2g}); add masks.")
+        raise FrameError(f"{name}: no row v gives v M = delta_0 (nearest: off by {off:.2g}); add masks.")
     return rows

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ..errors import RegionError
 from ..mesh.carrier import Carrier
 from ..mesh.checks import check_positions
 from ..mesh.connectivity import Connectivity
@@ -112,7 +113,7 @@ def place(region: Region, surface: SurfaceMesh, movable: NDArray[np.bool_] | Non
 
     Raises
     ------
-    ValueError
+    RegionError
         In one sentence, if the region does not fit the mesh, if nothing may move, or if nothing is left of
         the welded mesh.
     """
@@ -142,7 +143,7 @@ def place(region: Region, surface: SurfaceMesh, movable: NDArray[np.bool_] | Non
         weights = None if weights is None else weld.least(weights)
         edges = None if edges is None else weld.vertex[edges]
     if movable is not None and not movable.any():
-        raise ValueError(
+        raise RegionError(
             "No vertex may move: those that are selected have weight 0, or lie on others that may not move."
         )
     return Placed(surface, worked, weld, movable, weights, edges)
@@ -156,11 +157,11 @@ def _new_numbers(reordering: Reordering) -> NDArray[np.intp]:
 
 
 def _check_movable(movable: NDArray[np.bool_], n_vertices: int) -> None:
-    """Raise ValueError unless the mask fits the mesh and selects something."""
+    """Raise RegionError unless the mask fits the mesh and selects something."""
     if movable.shape != (n_vertices,) or movable.dtype != bool:
-        raise ValueError(
+        raise RegionError(
             f"The mask of movable vertices is {movable.dtype} of shape {movable.shape}; "
             f"expected bool ({n_vertices},)."
         )
     if not movable.any():
-        raise ValueError("No vertex may move; select at least one.")
+        raise RegionError("No vertex may move; select at least one.")

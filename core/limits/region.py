@@ -10,6 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..errors import RegionError
+
 
 @dataclass(frozen=True, eq=False)
 class Region:
@@ -37,7 +39,7 @@ class Region:
 
     Raises
     ------
-    ValueError
+    RegionError
         On construction, in one sentence, if a value is out of range.
     """
 
@@ -55,7 +57,7 @@ class Region:
         if self.feature_edges is not None:
             edges = np.asarray(self.feature_edges)
             if edges.ndim != 2 or edges.shape[1] != 2 or not np.issubdtype(edges.dtype, np.integer):
-                raise ValueError(
+                raise RegionError(
                     f"The feature edges are {edges.dtype} of shape {edges.shape}; expected whole numbers of "
                     "shape (E, 2), two vertices for each edge."
                 )
@@ -63,41 +65,41 @@ class Region:
         _check_length("weld distance", self.weld_distance)
 
     def check(self, n_vertices: int) -> None:
-        """Raise ValueError, in one sentence, unless this fits a mesh with so many vertices."""
+        """Raise RegionError, in one sentence, unless this fits a mesh with so many vertices."""
         if self.weights is not None:
             if len(self.weights) != n_vertices:
-                raise ValueError(
+                raise RegionError(
                     f"There are {len(self.weights)} weights for {n_vertices} vertices; give one for each."
                 )
             if not np.any(self.weights):
-                raise ValueError("All weights are 0, so that no vertex may move; give some a larger weight.")
+                raise RegionError("All weights are 0, so that no vertex may move; give some a larger weight.")
         edges = self.feature_edges
         if edges is not None and np.size(edges) and (np.min(edges) < 0 or np.max(edges) >= n_vertices):
             wrong = int(np.min(edges)) if np.min(edges) < 0 else int(np.max(edges))
-            raise ValueError(
+            raise RegionError(
                 f"A feature edge names vertex {wrong}, but there are {n_vertices} vertices; take it out."
             )
 
 
 def _check_weights(weights: NDArray) -> None:
-    """Raise ValueError unless these are numbers from 0 to 1, one for each vertex."""
+    """Raise RegionError unless these are numbers from 0 to 1, one for each vertex."""
     if weights.ndim != 1 or not np.issubdtype(weights.dtype, np.floating):
-        raise ValueError(
+        raise RegionError(
             f"The weights are {weights.dtype} of shape {weights.shape}; expected one real number a vertex."
         )
     is_wrong = ~((weights >= 0.0) & (weights <= 1.0))  # also refuses NaN
     if is_wrong.any():
         vertex = int(np.flatnonzero(is_wrong)[0])
-        raise ValueError(
+        raise RegionError(
             f"The weight of vertex {vertex} is {weights[vertex]:g}; weights must be between 0 and 1."
         )
 
 
 def _check_length(name: str, value: Any) -> None:
-    """Raise ValueError unless this is None or a length that is not negative."""
+    """Raise RegionError unless this is None or a length that is not negative."""
     if value is None:
         return
     if not isinstance(value, int | float | np.integer | np.floating) or isinstance(value, bool):
-        raise ValueError(f"The {name} is {value!r}; it must be a number.")
+        raise RegionError(f"The {name} is {value!r}; it must be a number.")
     if not 0.0 <= value < float("inf"):
-        raise ValueError(f"The {name} is {value:g}; it must be 0 or a positive number.")
+        raise RegionError(f"The {name} is {value:g}; it must be 0 or a positive number.")

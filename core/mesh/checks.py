@@ -8,16 +8,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
+from ..errors import MeshError
 from .geometry import mean_edge_length
 from .surface_mesh import SurfaceMesh
 
 
 def check_positions(surface: SurfaceMesh) -> None:
-    """Raise ValueError, in one sentence, if a mesh has no vertices or faces, or a position is not finite."""
+    """Raise MeshError, in one sentence, if a mesh has no vertices or faces, or a position is not finite."""
     if not surface.n_vertices:
-        raise ValueError("The mesh is empty; it needs vertices and faces.")
+        raise MeshError("The mesh is empty; it needs vertices and faces.")
     if not surface.n_faces:
-        raise ValueError(
+        raise MeshError(
             f"The mesh has {surface.n_vertices} vertices but no faces; only surfaces can be cleaned."
         )
     is_finite = np.isfinite(surface.vertices)
@@ -27,7 +28,7 @@ def check_positions(surface: SurfaceMesh) -> None:
         count = (
             "is not a finite point" if len(wrong) == 1 else f"and {len(wrong) - 1} more are not finite points"
         )
-        raise ValueError(f"Vertex {wrong[0]} at ({position}) {count}; delete or move it first.")
+        raise MeshError(f"Vertex {wrong[0]} at ({position}) {count}; delete or move it first.")
 
 
 def check_surface(
@@ -39,14 +40,14 @@ def check_surface(
 
     Raises
     ------
-    ValueError
+    MeshError
         In one sentence, if the mesh has no vertices or faces, a position that is not finite, or no size.
     """
     check_positions(surface)
     with np.errstate(over="ignore"):  # said in a sentence below
         edge = mean_edge_length(surface, blocks, edge_face_count)
     if not edge > 0.0:
-        raise ValueError("All faces have shrunk to points; the mesh has no size to measure noise by.")
+        raise MeshError("All faces have shrunk to points; the mesh has no size to measure noise by.")
     if not np.isfinite(edge):
-        raise ValueError("The mesh is too large to measure its edges; scale it down first.")
+        raise MeshError("The mesh is too large to measure its edges; scale it down first.")
     return edge

@@ -4,16 +4,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from functools import cached_property
-from itertools import chain
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..errors import MeshError
 from .edge_list import find_edges
+from .face_checks import (
+    check_corners,
+    check_faces,
+    check_range,
+    check_repeats,
+    check_shape,
+    check_sizes,
+    corner_list,
+    positions_of,
+    whole_numbers,
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,7 +49,7 @@ class SurfaceMesh:
 
     Raises
     ------
-    ValueError
+    MeshError
         On construction, in one sentence, if an array has another shape or type, a face has less than three
         corners or a vertex twice, or an edge is not that of its corner.
 
@@ -47,10 +58,10 @@ class SurfaceMesh:
     >>> mesh = SurfaceMesh.from_faces([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]])
     >>> mesh
     SurfaceMesh(4 vertices, 1 faces, float64)
-    >>> SurfaceMesh.from_faces([[0, 0, 0], [1, 0, 0], [1, 1, 0]], [[0, 1, 1]])
+    >>> SurfaceMesh.from_faces([[0, 0, 0], [1, 0, 0], [1, 1, 0]], [[0, 1, 3]])
     Traceback (most recent call last):
     ...
-    ValueError: Face 0 names vertex 1 twice; a face needs three or more different vertices.
+    framelet.core.errors.MeshError: Face 0 names vertex 3, but there are 3 vertices.
     """
 
     vertices: NDArray[np.floating]
@@ -60,9 +71,9 @@ class SurfaceMesh:
     edges: NDArray[np.int32]
 
     def __post_init__(self) -> None:
-        _check_positions(self.vertices)
-        _check_corners(self)
-        _check_faces(self)
+        check_shape(self.vertices)
+        check_corners(self)
+        check_faces(self)
 
     def __repr__(self) -> str:
         return f"SurfaceMesh({self.n_vertices} vertices, {self.n_faces} faces, {self.vertices.dtype})"
@@ -168,14 +179,14 @@ class SurfaceMesh:
 
         Raises
         ------
-        ValueError
+        MeshError
             If the shape is another one.
         """
         positions = np.asarray(vertices)
         if positions.dtype not in (np.float32, np.float64):
             positions = positions.astype(np.float64)
         if positions.shape != self.vertices.shape:
-            raise ValueError(f"The positions have shape {positions.shape}; expected {self.vertices.shape}.")
+            raise MeshError(f"The positions have shape {positions.shape}; expected {self.vertices.shape}.")
         return SurfaceMesh.trusted(
             positions, self.corner_vertex, self.corner_edge, self.face_offset, self.edges
         )
@@ -200,7 +211,7 @@ class SurfaceMesh:
 
         Raises
         ------
-        ValueError
+        MeshError
             In one sentence, if the shapes are wrong, if a number is not whole, or if a face has less than
             three corners, names a vertex twice or one that does not exist.
 
@@ -210,155 +221,18 @@ class SurfaceMesh:
         >>> mesh.edges.tolist()
         [[0, 1], [0, 2], [1, 2]]
         """
-        positions = _positions(vertices)
-        flat, offset = _corner_list(faces)
-        loose = _whole_numbers(np.asarray(loose_edges), "loose edges").reshape(-1, 2)
-        _check_range(flat, len(positions), "A face", offset)
-        _check_range(loose.reshape(-1), len(positions), "A loose edge")
+        positions = positions_of(vertices)
+        flat, offset = corner_list(faces)
+        loose = whole_numbers(np.asarray(loose_edges), "loose edges").reshape(-1, 2)
+        check_range(flat, len(positions), "A face", offset)
+        check_range(loose.reshape(-1), len(positions), "A loose edge")
         corner = flat.astype(np.int32)
         bare = cls.trusted(positions, corner, corner, offset, np.zeros((0, 2), np.int32))
-        _check_sizes(bare)
+        check_sizes(bare)
         following = corner[bare.next_corner()]
-        _check_repeats(bare, following)
+        check_repeats(bare, following)
         edges, edge = find_edges(corner, following, loose, len(positions))
         return cls.trusted(positions, corner, edge, offset, edges)
-
-
-def _positions(vertices: ArrayLike) -> NDArray[np.floating]:
-    """Return positions as an array of float32 or float64, shape (N, 3)."""
-    positions = np.asarray(vertices)
-    if positions.dtype.kind not in "iuf":
-        raise ValueError(f"The positions are {positions.dtype}; expected real numbers.")
-    if positions.dtype != np.float32:
-        positions = positions.astype(np.float64)
-    _check_positions(positions)
-    return positions
-
-
-def _check_positions(positions: NDArray[np.floating]) -> None:
-    """Raise ValueError unless these are positions, shape (N, 3), float32 or float64."""
-    if positions.ndim != 2 or positions.shape[1] != 3:
-        raise ValueError(f"The positions have shape {positions.shape}; expected (N, 3).")
-    if positions.dtype not in (np.float32, np.float64):
-        raise ValueError(f"The positions are {positions.dtype}; expected float32 or float64.")
-    if len(positions) >= 2**31:
-        raise ValueError(f"There are {len(positions):,} vertices; at most {2**31 - 1:,} can be numbered.")
-
-
-def _corner_list(
-    faces: ArrayLike | Sequence[Sequence[int]],
-) -> tuple[NDArray[np.integer], NDArray[np.int32]]:
-    """Return the vertices of all corners, shape (C,), and the first corner of each face, shape (F + 1,)."""
-    if isinstance(faces, np.ndarray) and faces.ndim == 2:
-        flat = _whole_numbers(faces, "faces").reshape(-1)
-        return flat, np.arange(len(faces) + 1, dtype=np.int32) * np.int32(faces.shape[1])
-    if not isinstance(faces, Iterable):
-        raise ValueError(f"The faces are {faces!r}; expected an array of shape (F, k) or a list of lists.")
-    rows: list[Any] = list(faces)
-    if any(np.ndim(row) != 1 for row in (rows[:1] if rows else ())) or not all(
-        hasattr(row, "__len__") for row in rows
-    ):
-        raise ValueError("The faces are no lists of vertices; expected shape (F, k) or a list of lists.")
-    sizes = np.fromiter(map(len, rows), np.int64, len(rows))
-    offset = np.concatenate(([0], np.cumsum(sizes)))
-    items = list(chain.from_iterable(rows))
-    if not items:
-        return np.zeros(0, np.int32), offset.astype(np.int32)
-    if not {bool, np.bool_}.isdisjoint(map(type, items)):
-        raise ValueError("The faces contain True or False; vertices are given by whole numbers.")
-    return _whole_numbers(np.asarray(items), "faces"), offset.astype(np.int32)
-
-
-def _whole_numbers(numbers: NDArray, name: str) -> NDArray[np.integer]:
-    """Return an array of whole numbers, or raise ValueError if it holds anything else."""
-    if numbers.size and numbers.dtype.kind not in "iu":
-        raise ValueError(f"The {name} are {numbers.dtype}; vertices are given by whole numbers.")
-    return numbers if numbers.size else numbers.astype(np.int64)
-
-
-def _check_range(
-    numbers: NDArray[np.integer], n_vertices: int, what: str, offset: NDArray[np.int32] | None = None
-) -> None:
-    """Raise ValueError if a number, shape (n,), is not that of a vertex."""
-    if not numbers.size or (numbers.min() >= 0 and numbers.max() < n_vertices):
-        return
-    place = int(np.flatnonzero((numbers < 0) | (numbers >= n_vertices))[0])
-    if offset is not None:
-        what = f"Face {int(np.searchsorted(offset, place, side='right')) - 1}"
-    raise ValueError(f"{what} names vertex {numbers[place]}, but there are {n_vertices} vertices.")
-
-
-def _check_corners(mesh: SurfaceMesh) -> None:
-    """Raise ValueError unless the arrays of a mesh have the right types, shapes and ranges."""
-    for name, dimensions in (("corner_vertex", 1), ("corner_edge", 1), ("face_offset", 1), ("edges", 2)):
-        array = getattr(mesh, name)
-        if not isinstance(array, np.ndarray) or array.dtype != np.int32 or array.ndim != dimensions:
-            kind = f"{array.dtype} of shape {array.shape}" if isinstance(array, np.ndarray) else type(array)
-            raise ValueError(
-                f"{name} is {kind}; expected int32 with {dimensions} dimension{'s' * (dimensions > 1)}."
-            )
-    offset, n_corners = mesh.face_offset, mesh.n_corners
-    if mesh.edges.shape[1] != 2:
-        raise ValueError(f"edges has shape {mesh.edges.shape}; expected (E, 2).")
-    if len(mesh.corner_edge) != n_corners:
-        raise ValueError(f"There are {n_corners} corner vertices, but {len(mesh.corner_edge)} corner edges.")
-    if not len(offset) or offset[0] != 0 or offset[-1] != n_corners or (np.diff(offset) < 0).any():
-        raise ValueError(f"face_offset must ascend from 0 to the number of corners, {n_corners}.")
-    _check_range(mesh.corner_vertex, mesh.n_vertices, "A face", offset)
-    _check_range(mesh.edges.reshape(-1), mesh.n_vertices, "An edge")
-    if n_corners and not (mesh.corner_edge.min() >= 0 and mesh.corner_edge.max() < mesh.n_edges):
-        wrong = mesh.corner_edge[(mesh.corner_edge < 0) | (mesh.corner_edge >= mesh.n_edges)][0]
-        raise ValueError(f"A corner names edge {wrong}, but there are {mesh.n_edges} edges.")
-
-
-def _check_faces(mesh: SurfaceMesh) -> None:
-    """Raise ValueError unless each face has three or more different vertices, and its own edges."""
-    _check_sizes(mesh)
-    following = mesh.corner_vertex[mesh.next_corner()]
-    _check_repeats(mesh, following)
-    ends = mesh.edges[mesh.corner_edge]
-    is_own = (ends[:, 0] == mesh.corner_vertex) & (ends[:, 1] == following)
-    is_own |= (ends[:, 1] == mesh.corner_vertex) & (ends[:, 0] == following)
-    if not is_own.all():
-        corner = int(np.flatnonzero(~is_own)[0])
-        raise ValueError(
-            f"Corner {corner} runs from vertex {mesh.corner_vertex[corner]} to {following[corner]}, but its "
-            f"edge {mesh.corner_edge[corner]} joins {ends[corner, 0]} and {ends[corner, 1]}."
-        )
-
-
-def _check_sizes(mesh: SurfaceMesh) -> None:
-    """Raise ValueError unless each face has three or more corners."""
-    if mesh.common_face_size() >= 3 or not mesh.n_faces:
-        return
-    sizes = mesh.face_sizes()
-    if sizes.min() < 3:
-        face = int(np.flatnonzero(sizes < 3)[0])
-        raise ValueError(f"Face {face} has {sizes[face]} corners; a face needs three or more.")
-
-
-def _check_repeats(mesh: SurfaceMesh, following: NDArray[np.int32]) -> None:
-    """Raise ValueError if a face has a vertex twice; `following`, shape (C,), are the next vertices."""
-    corner = mesh.corner_vertex
-    twice = np.flatnonzero(corner == following) if mesh.n_corners else np.zeros(0, np.intp)
-    common = mesh.common_face_size()
-    faces = np.searchsorted(mesh.face_offset, twice, side="right") - 1
-    if not len(twice) and common != 3:
-        sizes = mesh.face_sizes()
-        for size in [common] if common else np.unique(sizes).tolist():
-            group = np.flatnonzero(sizes == size)
-            rows = np.sort(corner[mesh.face_offset[group, None] + np.arange(size)], axis=1)
-            has_twice = (rows[:, 1:] == rows[:, :-1]).any(axis=1)
-            if has_twice.any():
-                faces = group[has_twice]
-                break
-    if len(faces):
-        own = corner[mesh.face_offset[faces[0]] : mesh.face_offset[faces[0] + 1]]
-        values, counts = np.unique(own, return_counts=True)
-        raise ValueError(
-            f"Face {faces[0]} names vertex {values[counts > 1][0]} twice; a face needs three or more "
-            "different vertices."
-        )
 
 
 def _is_frozen(array: NDArray) -> bool:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..errors import RegionError
 from .edge_list import find_edges
 from .linking import linked_groups
 from .surface_mesh import SurfaceMesh
@@ -61,7 +62,7 @@ def make_weld(surface: SurfaceMesh, distance: float) -> Weld:
 
     Raises
     ------
-    ValueError
+    RegionError
         In one sentence, if no face is left.
     """
     groups = same_places(surface.vertices)
@@ -78,7 +79,7 @@ def make_weld(surface: SurfaceMesh, distance: float) -> Weld:
         vertices = (vertices + np.stack(mean, axis=1)).astype(vertices.dtype)
     faces, kept = _welded_faces(surface, groups)
     if surface.n_faces and not len(kept):
-        raise ValueError(
+        raise RegionError(
             f"Welding vertices up to {distance:g} apart leaves no face; take a smaller merge distance."
         )
     is_loose = np.bincount(surface.corner_edge, minlength=surface.n_edges) == 0

@@ -7,6 +7,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..errors import SettingError
+
 SHRINKAGES = ("BANDS", "VECTOR", "SCALAR")
 SEPARABLE = ("VECTOR", "SCALAR")
 """Shrinkages that treat every band by itself, so that bands with v = 0 can be left out (Remark 4.1)."""
@@ -32,7 +34,7 @@ def shrink(coefficients: NDArray[np.floating], threshold: float, kind: str) -> N
 
     Raises
     ------
-    ValueError
+    SettingError
         If the kind is not known or the threshold is negative.
     """
     return coefficients - clipped(coefficients, threshold, kind)
@@ -50,9 +52,9 @@ def clipped(
     `group_starts`, VECTOR takes the bands from each start to the next as one longer vector.
     """
     if kind not in SHRINKAGES:
-        raise ValueError(f"The shrinkage is {kind!r}; choose one of {', '.join(SHRINKAGES)}.")
+        raise SettingError(f"The shrinkage is {kind!r}; choose one of {', '.join(SHRINKAGES)}.")
     if not threshold >= 0:
-        raise ValueError(f"The threshold is {threshold}; it must not be negative.")
+        raise SettingError(f"The threshold is {threshold}; it must not be negative.")
     if not coefficients.shape[1]:
         return coefficients.copy()  # a vertex without neighbors has no bands
     nu = coefficients.dtype.type(threshold)

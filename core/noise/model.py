@@ -7,6 +7,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..errors import SettingError
 from ..mesh.checks import check_surface
 from ..mesh.geometry import vertex_normals
 from ..mesh.surface_mesh import SurfaceMesh
@@ -34,12 +35,12 @@ def add_noise(surface: SurfaceMesh, sigma: float = PAPER_SIGMA, seed: int = 0) -
 
     Raises
     ------
-    ValueError
+    SettingError
         If sigma is negative or not finite, or the mesh has no faces, no size or positions that are not
         finite.
     """
     if not 0.0 <= sigma < np.inf:
-        raise ValueError(f"The noise level is {sigma:g}; it must be zero or a positive number.")
+        raise SettingError(f"The noise level is {sigma:g}; it must be zero or a positive number.")
     edge = check_surface(surface)
     offset = np.random.default_rng(seed).normal(0.0, sigma * edge, surface.n_vertices)
     vertices = surface.vertices + offset[:, None] * vertex_normals(surface)

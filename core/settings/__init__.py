@@ -3,7 +3,15 @@
 """What can be set: methods, frames, presets, their ranges and words."""
 
 from .choices import METHODS
-from .denoise_settings import DEFAULT_PRESET, PRESETS, DenoiseSettings
+from .denoise_settings import DEFAULT_PRESET, PRESETS, DenoiseSettings, check_setting, used_settings
 from .setting_info import SettingInfo
 
-__all__ = ["DEFAULT_PRESET", "METHODS", "PRESETS", "DenoiseSettings", "SettingInfo"]
+__all__ = [
+    "DEFAULT_PRESET",
+    "METHODS",
+    "PRESETS",
+    "DenoiseSettings",
+    "SettingInfo",
+    "check_setting",
+    "used_settings",
+]

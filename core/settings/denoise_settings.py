@@ -12,6 +12,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from typing import Any, NamedTuple
 
+from ..errors import SettingError
 from .choices import BOUNDARIES, FRAMES, METHODS, NOISES, SHRINKAGES, STENCILS, TUNINGS
 from .setting_info import SettingInfo as SettingInfo
 from .setting_info import check_value
@@ -23,15 +24,26 @@ class DenoiseSettings:
     """Parameters of `framelet.core.denoise`.
 
     Lengths (`lambda_`, `sigma_c`, `sigma_s`) are in units of the mean edge length of the mesh, so that the
-    same numbers mean the same on every mesh. The defaults are those of the preset POSITIONS.
+    same numbers mean the same on every mesh. The defaults are those of the preset AUTO.
 
     Raises
     ------
-    ValueError
-        On construction, in one sentence, if a value is out of range or not one of the choices.
+    SettingError
+        On construction, in one sentence, if a value is out of range or not one of the choices, or if a
+        setting that the method does not use has another value than its default.
+
+    Examples
+    --------
+    >>> DenoiseSettings(method="POSITIONS", lambda_=0.3).levels
+    1
+    >>> DenoiseSettings(lambda_=0.3)
+    Traceback (most recent call last):
+    ...
+    framelet.core.errors.SettingError: lambda_ is 0.3, but the method AUTO does not use it; leave it out, or \
+give method="POSITIONS".
     """
 
-    method: str = _setting("POSITIONS", "Engine", "How the surface is cleaned", choices=METHODS)
+    method: str = _setting("AUTO", "Engine", "How the surface is cleaned", choices=METHODS)
     strength: float = _setting(
         1.0,
         "Strength",
@@ -169,17 +181,45 @@ class DenoiseSettings:
 
     def __post_init__(self) -> None:
         for item in fields(self):
-            check_value(item.metadata["info"], str(item.type), getattr(self, item.name))
+            info, value = item.metadata["info"], getattr(self, item.name)
+            check_value(info, str(item.type), value)
+            if value != item.default and not info.has_effect(self.method):
+                shown = repr(value) if isinstance(value, str) else f"{value:g}"
+                raise SettingError(
+                    f"{item.name} is {shown}, but the method {self.method} does not use it; leave it out, or "
+                    f'give method="{info.methods[0]}".'
+                )
 
     def with_changes(self, **changes: Any) -> DenoiseSettings:
         """Return a copy with some fields changed.
 
         Raises
         ------
-        ValueError
-            If a value is not allowed.
+        SettingError
+            If a value is not allowed, or the method does not use it.
         """
         return replace(self, **changes)
+
+
+def check_setting(name: str, value: Any) -> None:
+    """Raise SettingError, in one sentence, unless a value is allowed for a setting, whatever the method."""
+    item = next(item for item in fields(DenoiseSettings) if item.name == name)
+    check_value(item.metadata["info"], str(item.type), value)
+
+
+def used_settings(values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return those of some values, by name, that the method among them uses.
+
+    Interfaces show the settings of all methods at once; those of the others are not passed on.
+
+    Examples
+    --------
+    >>> used_settings({"method": "BILATERAL", "sigma_c": 2.0, "lambda_": 0.3})
+    {'method': 'BILATERAL', 'sigma_c': 2.0}
+    """
+    method = values.get("method", DenoiseSettings.method)
+    infos = {item.name: item.metadata["info"] for item in fields(DenoiseSettings)}
+    return {name: value for name, value in values.items() if infos[name].has_effect(method)}
 
 
 class Preset(NamedTuple):
@@ -224,27 +264,57 @@ PRESETS: Mapping[str, Preset] = {
     "POSITIONS": Preset(
         "Positions",
         "For even, soft smoothing of any mesh: the frame that fits its faces, vector shrinkage",
-        {"frame": "AUTO", "stencil": "STRAIGHT", "shrinkage": "VECTOR", "lambda_": 0.25},
+        {
+            "method": "POSITIONS",
+            "frame": "AUTO",
+            "stencil": "STRAIGHT",
+            "shrinkage": "VECTOR",
+            "lambda_": 0.25,
+        },
     ),
     "TRI_1": Preset(
         "Paper Tri-1",
         "The paper's algorithm for triangles, even and soft: one-ring means, all bands shrunk together",
-        {"frame": "BOX_SPLINE_111", "stencil": "MEAN", "shrinkage": "BANDS", "lambda_": 0.5},
+        {
+            "method": "POSITIONS",
+            "frame": "BOX_SPLINE_111",
+            "stencil": "MEAN",
+            "shrinkage": "BANDS",
+            "lambda_": 0.5,
+        },
     ),
     "TRI_2": Preset(
         "Paper Tri-2",
         "The paper's algorithm for triangles that keeps edges better: straight pairs, vector shrinkage",
-        {"frame": "BOX_SPLINE_111", "stencil": "STRAIGHT", "shrinkage": "VECTOR", "lambda_": 0.3},
+        {
+            "method": "POSITIONS",
+            "frame": "BOX_SPLINE_111",
+            "stencil": "STRAIGHT",
+            "shrinkage": "VECTOR",
+            "lambda_": 0.3,
+        },
     ),
     "QUAD_1": Preset(
         "Paper Quad-1",
         "The paper's algorithm for quads, even and soft: one-ring means, every number shrunk by itself",
-        {"frame": "LINEAR_SPLINE", "stencil": "MEAN", "shrinkage": "SCALAR", "lambda_": 0.15},
+        {
+            "method": "POSITIONS",
+            "frame": "LINEAR_SPLINE",
+            "stencil": "MEAN",
+            "shrinkage": "SCALAR",
+            "lambda_": 0.15,
+        },
     ),
     "QUAD_2": Preset(
         "Paper Quad-2",
         "The paper's algorithm for quads that keeps edges better: straight pairs, vector shrinkage",
-        {"frame": "LINEAR_SPLINE", "stencil": "STRAIGHT", "shrinkage": "VECTOR", "lambda_": 0.2},
+        {
+            "method": "POSITIONS",
+            "frame": "LINEAR_SPLINE",
+            "stencil": "STRAIGHT",
+            "shrinkage": "VECTOR",
+            "lambda_": 0.2,
+        },
     ),
     "BILATERAL": Preset(
         "Bilateral",

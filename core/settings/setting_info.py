@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from numbers import Integral, Real
 from typing import Any
 
+from ..errors import SettingError
 from .choices import Choice
 
 
@@ -41,7 +42,7 @@ def setting_field(default: Any, label: str, description: str, **info: Any) -> An
 
 
 def check_value(info: SettingInfo, kind: str, value: Any) -> None:
-    """Raise ValueError, with the value, unless it is allowed for this setting.
+    """Raise SettingError, with the value, unless it is allowed for this setting.
 
     `kind` is the type of the field: "int", "float", "bool" or "str".
     """
@@ -49,18 +50,18 @@ def check_value(info: SettingInfo, kind: str, value: Any) -> None:
     if info.choices:
         names = [choice.identifier for choice in info.choices]
         if value not in names:
-            raise ValueError(f"{label} is {value!r}; choose one of {', '.join(names)}.")
+            raise SettingError(f"{label} is {value!r}; choose one of {', '.join(names)}.")
         return
     if kind in ("bool", "str"):
         if type(value).__name__ != kind:
             wanted = "True or False" if kind == "bool" else "a text"
-            raise ValueError(f"{label} is {value!r}; it must be {wanted}.")
+            raise SettingError(f"{label} is {value!r}; it must be {wanted}.")
         return
     is_number = isinstance(value, Integral if kind == "int" else Real)
     if not is_number or type(value) is bool:
-        raise ValueError(f"{label} is {value!r}; it must be a {'whole ' if kind == 'int' else ''}number.")
+        raise SettingError(f"{label} is {value!r}; it must be a {'whole ' if kind == 'int' else ''}number.")
     assert info.minimum is not None and info.maximum is not None
     if not info.minimum <= value <= info.maximum:  # also refuses NaN
         is_huge = isinstance(value, int) and abs(value) > sys.float_info.max
         shown = "a huge number" if is_huge else f"{value:g}"
-        raise ValueError(f"{label} is {shown}; it must be between {info.minimum:g} and {info.maximum:g}.")
+        raise SettingError(f"{label} is {shown}; it must be between {info.minimum:g} and {info.maximum:g}.")

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from ..blocks import Blocks
+from ..errors import FrameError
 from ..frames import FilterBank
 from ..frames.box_spline import BOX_SPLINE_111
 from ..mesh.connectivity import Connectivity
@@ -57,13 +58,13 @@ def make_stencil(
 
     Raises
     ------
-    ValueError
+    FrameError
         If the rule or the boundary is not known.
     """
     if rule not in RULES:
-        raise ValueError(f"The stencil rule is {rule!r}; choose one of {', '.join(RULES)}.")
+        raise FrameError(f"The stencil rule is {rule!r}; choose one of {', '.join(RULES)}.")
     if boundary not in BOUNDARIES:
-        raise ValueError(f"The boundary is {boundary!r}; choose one of {', '.join(BOUNDARIES)}.")
+        raise FrameError(f"The boundary is {boundary!r}; choose one of {', '.join(BOUNDARIES)}.")
     blocks = blocks or Blocks(1)
     if bank.is_cell_centered or bank.reach > 1:
         return make_walked_stencil(surface, connectivity, boundary, bank, level)

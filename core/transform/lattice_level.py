@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from ..blocks import Blocks
+from ..errors import FrameError
 from ..frames import FilterBank
 from ..frames.mask_product import MaskProduct
 from ..stencils import Stencil
@@ -63,7 +64,7 @@ class LatticeLevel:
         bands: NDArray[np.intp] | None = None,
     ) -> None:
         if stencil.n_taps != bank.n_taps:
-            raise ValueError(f"The stencil has {stencil.n_taps} taps, but {bank.name} has {bank.n_taps}.")
+            raise FrameError(f"The stencil has {stencil.n_taps} taps, but {bank.name} has {bank.n_taps}.")
         bands = np.arange(bank.n_bands) if bands is None else bands
         self.stencil = stencil
         blocks = blocks.sized(min(blocks.block_size, _block_size(stencil.n_taps)))

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from ..blocks import Blocks
+from ..errors import FrameError
 from ..frames import BANKS, FilterBank
 from ..frames.valence_masks import FAMILIES
 from ..memory import give_back
@@ -64,16 +65,16 @@ def make_transform(
 
     Raises
     ------
-    ValueError
+    FrameError
         If the frame is not known or does not fit the mesh, or the mesh is too small for so many levels.
     """
     blocks = blocks or Blocks(1)
     connectivity = connectivity or connect(surface, blocks)
     name = frame if isinstance(frame, str) else frame.name
     if isinstance(frame, str) and frame not in BANKS and frame not in FAMILIES:
-        raise ValueError(f"The frame is {frame!r}; choose one of {', '.join([*BANKS, *FAMILIES])}.")
+        raise FrameError(f"The frame is {frame!r}; choose one of {', '.join([*BANKS, *FAMILIES])}.")
     if n_levels < 1:
-        raise ValueError(f"The number of levels is {n_levels}; it must be at least 1.")
+        raise FrameError(f"The number of levels is {n_levels}; it must be at least 1.")
     if stencil == "ADAPTIVE" or name in FAMILIES:
         family = FAMILIES["PAIRWISE" if name == "PAIRWISE" else "ADAPTIVE"]
         return _adaptive_transform(surface, family, n_levels, boundary, connectivity, blocks, np.dtype(dtype))
@@ -158,21 +159,21 @@ def _is_reached(surface: SurfaceMesh, connectivity: Connectivity, bank: FilterBa
 
 
 def _check_reached(index: int, is_reached: bool) -> None:
-    """Raise ValueError if no vertex has a neighbor at a level."""
+    """Raise FrameError if no vertex has a neighbor at a level."""
     if not is_reached:
-        raise ValueError(
+        raise FrameError(
             f"The mesh is too small for {index + 1} levels: nothing is {2**index} edges apart; "
             f"use {index} level{'s' if index != 1 else ''} or fewer."
         )
 
 
 def check_fit(bank: FilterBank, connectivity: Connectivity) -> None:
-    """Raise ValueError if a frame's lattice has nothing in common with the mesh."""
+    """Raise FrameError if a frame's lattice has nothing in common with the mesh."""
     if bank.lattice == "QUADS" and not connectivity.has_quads:
-        raise ValueError(
+        raise FrameError(
             f"{bank.name} is a frame for quads, but the mesh has none; use a box spline frame or ADAPTIVE."
         )
     if bank.is_cell_centered and not (connectivity.has_quads or connectivity.has_triangle_pairs):
-        raise ValueError(
+        raise FrameError(
             f"{bank.name} needs quads or pairs of triangles, but the mesh has none; use ADAPTIVE."
         )

@@ -13,7 +13,15 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import Field, fields
 from typing import Any
 
-from ...core.settings import DEFAULT_PRESET, METHODS, PRESETS, DenoiseSettings, SettingInfo
+from ...core.settings import (
+    DEFAULT_PRESET,
+    METHODS,
+    PRESETS,
+    DenoiseSettings,
+    SettingInfo,
+    check_setting,
+    used_settings,
+)
 from ..properties.setting_values import has_effect, is_replaced
 from .messages import USAGE_ERROR, CommandError
 
@@ -86,17 +94,17 @@ def settings_from(arguments: argparse.Namespace) -> DenoiseSettings:
     """
     given = {item.name: getattr(arguments, item.name) for item in fields(DenoiseSettings)}
     changes = {name: value for name, value in given.items() if value is not None}
-    settings = PRESETS[arguments.preset].settings.with_changes(**changes)
+    values = vars(PRESETS[arguments.preset].settings) | changes
     for name in changes:
-        if not has_effect(settings.method, name):
+        if not has_effect(values["method"], name):
             raise CommandError(_says_unused(name, arguments.preset, arguments.method), USAGE_ERROR)
-        if is_replaced(settings.method, settings.tuning, name):
+        if is_replaced(values["method"], values["tuning"], name):
             raise CommandError(
                 f"{option_name(name)} has no effect with --tuning noise, which takes it from the measured "
                 "noise; leave one of them out.",
                 USAGE_ERROR,
             )
-    return settings
+    return DenoiseSettings(**used_settings(values))
 
 
 def _says_unused(name: str, preset: str, method: str | None) -> str:
@@ -136,7 +144,7 @@ def _value_type(item: Field) -> Callable[[str], Any]:
         except ValueError:
             raise argparse.ArgumentTypeError(f"{text!r} is not {wanted}") from None
         try:
-            DenoiseSettings().with_changes(**{item.name: value})
+            check_setting(item.name, value)
         except ValueError as error:
             raise argparse.ArgumentTypeError(str(error)) from None
         return value

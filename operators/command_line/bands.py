@@ -76,7 +76,9 @@ def run(arguments: argparse.Namespace) -> None:
         If it cannot be carried out; no file is then written or changed.
     """
     source, target = arguments.source, arguments.target
-    settings = DenoiseSettings(**{name: getattr(arguments, name) for name in FRAME_OPTIONS})
+    settings = DenoiseSettings(
+        method="POSITIONS", **{name: getattr(arguments, name) for name in FRAME_OPTIONS}
+    )
     file_type(source)
     if target.suffix.lower() != SUFFIX:
         raise CommandError(f"{target} is no {SUFFIX} file; bands are written as NumPy arrays.", USAGE_ERROR)

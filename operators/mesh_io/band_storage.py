@@ -133,7 +133,7 @@ def _is_whole(values: dict[str, Any]) -> bool:
     if not all(isinstance(value, kinds.get(key, str)) for key, value in values.items()):
         return False
     try:
-        DenoiseSettings(**{name: values[name] for name in FRAME_NAMES})
+        DenoiseSettings(method="POSITIONS", **{name: values[name] for name in FRAME_NAMES})
     except ValueError:
         return False
     counts = values["n_bands"]

@@ -8,10 +8,11 @@ refer to outlives Python, and the module bpy crashes when it does.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
-from ...core.settings import DEFAULT_PRESET, PRESETS, DenoiseSettings
+from ...core.settings import DEFAULT_PRESET, PRESETS, DenoiseSettings, used_settings
 from .region_values import REGION_NAMES, as_typed
 
 if TYPE_CHECKING:
@@ -48,46 +49,53 @@ def is_replaced(method: str, tuning: str, name: str) -> bool:
     return tuning == "NOISE" and has_effect(method, "tuning") and name in TUNED_NAMES
 
 
-def fill(properties: Any, settings: DenoiseSettings, keep: tuple[str, ...] = ()) -> None:
+def fill(properties: Any, settings: DenoiseSettings | Mapping[str, Any], keep: tuple[str, ...] = ()) -> None:
     """Write settings to properties, and leave the preset's name as it is.
 
     Parameters
     ----------
     properties : SettingsMixin
         Scene settings or an operator; changed.
-    settings : DenoiseSettings
-        The values.
+    settings : DenoiseSettings or mapping
+        The values, by name.
     keep : tuple of str
         Names that are not written.
     """
     global _is_filling
+    values = vars(settings) if isinstance(settings, DenoiseSettings) else settings
     outer, _is_filling = _is_filling, True
     try:
         for name in SETTING_NAMES:
             if name not in keep:
-                setattr(properties, name, getattr(settings, name))
+                setattr(properties, name, values[name])
     finally:
         _is_filling = outer
 
 
-def to_settings(properties: Any) -> DenoiseSettings:
-    """Return the settings that properties stand for.
+def all_values(properties: Any) -> dict[str, Any]:
+    """Return the values of all settings by name, those that the method does not use included.
 
     Parameters
     ----------
     properties : SettingsMixin
         Scene settings or an operator. Values that were never set are those of the preset,
         of a custom combination those of the default preset.
-
-    Raises
-    ------
-    ValueError
-        In one sentence, if a value is not allowed.
     """
     rna = getattr(properties, "properties", properties)
     changes = {name: as_typed(getattr(rna, name)) for name in SETTING_NAMES if rna.is_property_set(name)}
     base = PRESETS[rna.preset if rna.preset != CUSTOM else DEFAULT_PRESET].settings
-    return base.with_changes(**changes)
+    return vars(base) | changes
+
+
+def to_settings(properties: Any) -> DenoiseSettings:
+    """Return the settings that properties stand for, see `all_values`, as far as their method uses them.
+
+    Raises
+    ------
+    SettingError
+        In one sentence, if a value is not allowed.
+    """
+    return DenoiseSettings(**used_settings(all_values(properties)))
 
 
 def replace_lost(properties: Any) -> None:
@@ -100,16 +108,15 @@ def replace_lost(properties: Any) -> None:
 def copy_settings(source: Any, target: Any) -> None:
     """Copy all properties of scene settings to an operator, so that the operator needs nothing else."""
     copy_values(source, target, ("preset", "output", *REGION_NAMES))
-    settings = to_settings(source)
-    for name in SETTING_NAMES:
-        write_quietly(target, name, getattr(settings, name))
+    for name, value in all_values(source).items():
+        write_quietly(target, name, value)
 
 
 def copy_frame_settings(source: Any, target: Any, names: tuple[str, ...] = FRAME_NAMES) -> None:
     """Copy the settings of the frame transform from scene settings to an operator."""
-    settings = to_settings(source)
+    values = all_values(source)
     for name in names:
-        write_quietly(target, name, getattr(settings, name))
+        write_quietly(target, name, values[name])
 
 
 def copy_values(source: Any, target: Any, names: tuple[str, ...]) -> None:

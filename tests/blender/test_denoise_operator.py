@@ -64,7 +64,7 @@ def test_no_arguments_mean_the_default_preset_whatever_the_scene_says():
 
 def test_denoise_object_equals_core_and_reports():
     obj = noisy_monkey()
-    settings = DenoiseSettings(lambda_=0.2)
+    settings = DenoiseSettings(method="POSITIONS", lambda_=0.2)
     expected = denoise(mesh_bridge.read_surface(obj), settings)
     report = denoise_object(obj, settings)
     assert read(obj).tobytes() == expected.vertices.tobytes()

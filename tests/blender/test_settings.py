@@ -6,7 +6,7 @@ from dataclasses import fields
 
 import bpy
 import pytest
-from framelet.core.settings import DEFAULT_PRESET, PRESETS, DenoiseSettings
+from framelet.core.settings import DEFAULT_PRESET, PRESETS, DenoiseSettings, used_settings
 from framelet.operators.properties import setting_values as module
 from framelet.operators.properties.settings import FrameletSettings
 
@@ -132,7 +132,7 @@ def test_another_combination_is_custom(scene_settings, name, value):
     scene_settings.preset = "POSITIONS"
     setattr(scene_settings, name, value)
     assert scene_settings.preset == module.CUSTOM
-    assert module.to_settings(scene_settings) == DenoiseSettings(**{name: value})
+    assert module.to_settings(scene_settings) == DenoiseSettings(**{"method": "POSITIONS"} | {name: value})
 
 
 @pytest.mark.parametrize(
@@ -151,7 +151,11 @@ def test_other_numbers_keep_the_preset(scene_settings, preset, name, value):
     scene_settings.preset = preset
     setattr(scene_settings, name, value)
     assert scene_settings.preset == preset
-    assert module.to_settings(scene_settings) == PRESETS[preset].settings.with_changes(**{name: value})
+    settings = PRESETS[preset].settings
+    assert module.to_settings(scene_settings) == settings.with_changes(
+        **used_settings({"method": settings.method, name: value})
+    )
+    assert module.all_values(scene_settings) == vars(settings) | {name: value}
 
 
 @pytest.mark.parametrize("name", ["frame", "stencil", "shrinkage"])
@@ -187,6 +191,7 @@ def test_choosing_custom_keeps_the_values(scene_settings):
 
 
 def test_numbers_are_those_that_were_typed(scene_settings):
+    scene_settings.method = "POSITIONS"
     scene_settings.lambda_ = 0.123456
     scene_settings.tolerance = 1e-4
     settings = module.to_settings(scene_settings)
@@ -198,6 +203,7 @@ def test_limits_are_valid_settings(scene_settings):
         info = item.metadata["info"]
         for value in [choice.identifier for choice in info.choices] or [info.minimum, info.maximum]:
             setattr(scene_settings, name, int(value) if item.type == "int" else value)
+            scene_settings.method = value if name == "method" else (*info.methods, "AUTO")[0]
             assert getattr(module.to_settings(scene_settings), name) == value
 
 

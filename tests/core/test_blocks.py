@@ -10,8 +10,8 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
-from checks import TRIANGLE_PRESETS, assert_same_bits
-from framelet.core import PRESETS, SurfaceMesh, add_noise, compare, connect, denoise, make_stencil
+from checks import TRIANGLE_PRESETS, assert_same_bits, preset_settings
+from framelet.core import SurfaceMesh, add_noise, compare, connect, denoise, make_stencil
 from framelet.core.blocks import BLOCK_SIZE, Blocks, Stopped, _Numbers, available_cores
 from framelet.core.mesh.geometry import mean_edge_length
 from meshes import flipped, mixed_sheet, noisy, pyramid, triangle_grid, triangle_torus, turned_over, union
@@ -38,7 +38,7 @@ def large():
 @pytest.mark.parametrize("preset", TRIANGLE_PRESETS)
 def test_threads_do_not_change_a_bit(preset, large, small_blocks):
     assert large.n_vertices > 2 * SMALL == 2 * Blocks().block_size
-    settings = PRESETS[preset].settings.with_changes(iterations=2, delta=0.1, sigma_c=0.5)
+    settings = preset_settings(preset, iterations=2, delta=0.1, sigma_c=0.5)
     changes, results = [], []
     for threads in (1, 2, 4):
         seen = []
@@ -55,7 +55,7 @@ def test_threads_do_not_change_a_bit(preset, large, small_blocks):
 @pytest.mark.parametrize("preset", ["TRI_1", "TRI_2"])
 def test_nothing_happens_at_block_borders(preset, large, small_blocks):
     """A patch around a border, cut out and solved alone, has the same inside: it reaches one hop a step."""
-    settings = PRESETS[preset].settings.with_changes(iterations=5, boundary="FREE")
+    settings = preset_settings(preset, iterations=5, boundary="FREE")
     result = denoise(large, settings, dtype=np.float64)
     for border in (SMALL, 2 * SMALL):
         near = np.arange(border - 10 * COLUMNS, min(border + 10 * COLUMNS, large.n_vertices))
@@ -79,7 +79,7 @@ def calls(function):
 
 def work(preset, mesh):
     """Return a function that does all that a run does."""
-    settings = PRESETS[preset].settings.with_changes(threads=1, iterations=3)
+    settings = preset_settings(preset, threads=1, iterations=3)
 
     def run():
         result = denoise(mesh, settings)

@@ -4,7 +4,7 @@
 
 import numpy as np
 import pytest
-from checks import TRIANGLE_PRESETS, lengths, random_rotation
+from checks import TRIANGLE_PRESETS, lengths, preset_settings, random_rotation
 from framelet.core import PRESETS, denoise
 from framelet.core.mesh.surface_mesh import SurfaceMesh
 from mesh_files import read_mesh
@@ -26,7 +26,7 @@ HELD = pytest.mark.parametrize("boundary", ["ALONG", "FIXED"])
 
 
 def settings_of(preset, boundary):
-    return PRESETS[preset].settings.with_changes(boundary=boundary, iterations=30)
+    return preset_settings(preset, boundary=boundary, iterations=30)
 
 
 @pytest.mark.parametrize("name", FLAT)

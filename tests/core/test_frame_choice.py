@@ -52,7 +52,10 @@ def test_automatic_takes_what_fits_the_faces(name, rng):
     assert choose_frame("AUTO", connectivity) == CHOICES[name]
     for entry in FRAME_CATALOG:
         assert choose_frame(entry.identifier, connectivity) == entry.identifier
-    own, auto = (denoise(mesh, DenoiseSettings(frame=frame)).vertices for frame in (CHOICES[name], "AUTO"))
+    own, auto = (
+        denoise(mesh, DenoiseSettings(method="POSITIONS", frame=frame)).vertices
+        for frame in (CHOICES[name], "AUTO")
+    )
     assert np.array_equal(own, auto)
 
 
@@ -92,7 +95,7 @@ def test_settings_offer_automatic_and_the_catalog():
     assert info.choices == FRAMES
     for choice, entry in zip(FRAMES[1:], FRAME_CATALOG, strict=True):
         assert (choice.label, choice.description) == (entry.label, entry.description)
-        assert DenoiseSettings(frame=entry.identifier).frame == entry.identifier
+        assert DenoiseSettings(method="POSITIONS", frame=entry.identifier).frame == entry.identifier
     assert {preset.settings.frame for preset in PRESETS.values()} <= {choice.identifier for choice in FRAMES}
 
 
@@ -124,7 +127,7 @@ mesh = SurfaceMesh.from_faces(points, faces)
 assert BANKS["MINE"].n_bands == 9
 transform = make_transform(mesh, "MINE", n_levels=2)
 assert np.abs(transform.synthesize(transform.analyze(points)) - points).max() < 1e-12
-same = DenoiseSettings(frame="LINEAR_SPLINE", levels=2)
+same = DenoiseSettings(method="POSITIONS", frame="LINEAR_SPLINE", levels=2)
 assert np.array_equal(denoise(mesh, same.with_changes(frame="MINE")).vertices, denoise(mesh, same).vertices)
 assert np.array_equal(equalize(mesh, [2], frame="MINE"), equalize(mesh, [2], frame="LINEAR_SPLINE"))
 sys.stdout.write("works")
@@ -190,7 +193,7 @@ def test_too_many_levels_are_refused_with_the_largest_number_that_works(frame):
     with pytest.raises(ValueError, match="too small"):
         make_transform(mesh, frame, n_levels=works + 1)
     with pytest.raises(ValueError, match="too small"):
-        denoise(mesh, DenoiseSettings(frame=frame, levels=works + 1))
+        denoise(mesh, DenoiseSettings(method="POSITIONS", frame=frame, levels=works + 1))
 
 
 @pytest.mark.parametrize("frame", [entry.identifier for entry in FRAME_CATALOG])
@@ -199,7 +202,7 @@ def test_a_soup_of_polygons_is_served_or_refused(frame):
     for seed in range(2):
         mesh = soup(seed, shortest=1 + 2 * (seed % 2))
         try:
-            result = denoise(mesh, DenoiseSettings(frame=frame, levels=1 + seed))
+            result = denoise(mesh, DenoiseSettings(method="POSITIONS", frame=frame, levels=1 + seed))
         except ValueError as error:
             assert any(words in str(error) for words in ("too small", "but the mesh has none"))
             continue

@@ -5,10 +5,9 @@
 import dense_twin
 import numpy as np
 import pytest
-from checks import AS_SOLVED, assert_same_bits, edge_length, lengths, read_only
+from checks import AS_SOLVED, assert_same_bits, edge_length, lengths, preset_settings, read_only
 from framelet.core import (
     BANKS,
-    PRESETS,
     DenoiseSettings,
     connect,
     denoise,
@@ -72,7 +71,9 @@ def groups_of(frame, mesh, transform):
 def test_matches_the_matrices(frame, changes, n_levels, rng):
     """All bands, whether they reach the surface or not; with V, which is the adjoint where that is exact."""
     mesh = read_only(noisy(BUILD[frame](), rng))
-    settings = DenoiseSettings(frame=frame, levels=n_levels, boundary="FREE", iterations=5, **changes)
+    settings = DenoiseSettings(
+        method="POSITIONS", frame=frame, levels=n_levels, boundary="FREE", iterations=5, **changes
+    )
     edge = edge_length(mesh)
     scaled = mesh.with_vertices(mesh.vertices / edge)
     transform = make_transform(scaled, frame, settings.stencil, n_levels, boundary="FREE")
@@ -114,7 +115,7 @@ def test_quad_presets_are_the_literal_iteration(kind, iterations, preset, rng):
         "mixed": mixed_sheet,
     }
     mesh = read_only(noisy(build[kind](), rng))
-    settings = PRESETS[preset].settings.with_changes(iterations=iterations, boundary="FREE")
+    settings = preset_settings(preset, iterations=iterations, boundary="FREE")
     bank, edge, connectivity = BANKS["LINEAR_SPLINE"], edge_length(mesh), connect(mesh)
     stencil = make_stencil(mesh, connectivity, settings.stencil, "FREE", bank=bank)
     hold = np.flatnonzero(connectivity.is_loose)
@@ -136,7 +137,8 @@ def sheet(rng):
 def test_more_levels_remove_coarser_noise(frame, rng):
     mesh = sheet(rng)
     results = [
-        denoise(mesh, DenoiseSettings(frame=frame, levels=n), region=AS_SOLVED).vertices for n in (1, 2, 3)
+        denoise(mesh, DenoiseSettings(method="POSITIONS", frame=frame, levels=n), region=AS_SOLVED).vertices
+        for n in (1, 2, 3)
     ]
     edge = edge_length(mesh)
     for one, two in ((0, 1), (1, 2)):
@@ -149,7 +151,7 @@ def test_more_levels_remove_coarser_noise(frame, rng):
 def test_float32_agrees_with_float64(frame, rng):
     mesh = sheet(rng)
     single = mesh.with_vertices(mesh.vertices.astype(np.float32))
-    settings = DenoiseSettings(frame=frame, levels=2)
+    settings = DenoiseSettings(method="POSITIONS", frame=frame, levels=2)
     fast = denoise(single, settings)
     assert fast.vertices.dtype == np.float32
     exact = denoise(single.with_vertices(single.vertices.astype(np.float64)), settings, dtype=np.float64)
@@ -163,7 +165,7 @@ def test_threads_do_not_change_a_bit(frame, rng, monkeypatch):
     monkeypatch.setattr(adaptive_level, "SLOTS_PER_CHUNK", 200)
     monkeypatch.setattr(dilation, "CANDIDATES_PER_BLOCK", 2**13)
     mesh = sheet(rng)
-    settings = DenoiseSettings(frame=frame, levels=2, iterations=3, delta=0.1)
+    settings = DenoiseSettings(method="POSITIONS", frame=frame, levels=2, iterations=3, delta=0.1)
     for run in (
         lambda threads: denoise(mesh, settings.with_changes(threads=threads)).vertices,
         lambda threads: equalize(mesh, [0.5, 1.5], frame=frame, threads=threads),
@@ -176,7 +178,7 @@ def test_threads_do_not_change_a_bit(frame, rng, monkeypatch):
 @pytest.mark.parametrize("frame", ["ADAPTIVE", "PAIRWISE", "B_SPLINE_3"])
 def test_chunks_do_not_change_a_result(frame, rng, monkeypatch):
     mesh = sheet(rng)
-    settings = DenoiseSettings(frame=frame, levels=2, iterations=4)
+    settings = DenoiseSettings(method="POSITIONS", frame=frame, levels=2, iterations=4)
     plain = denoise(mesh, settings, dtype=np.float64).vertices
     monkeypatch.setattr(Blocks.__init__, "__defaults__", (0, 57))
     monkeypatch.setattr(adaptive_level, "SLOTS_PER_CHUNK", 60)

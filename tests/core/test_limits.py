@@ -4,8 +4,8 @@
 
 import numpy as np
 import pytest
-from checks import AS_SOLVED, TRIANGLE_PRESETS, assert_same_bits, lengths, read_only
-from framelet.core import PRESETS, denoise
+from checks import AS_SOLVED, TRIANGLE_PRESETS, assert_same_bits, lengths, preset_settings, read_only
+from framelet.core import denoise
 from framelet.core.mesh.connectivity import connect
 from framelet.core.mesh.geometry import vertex_normals
 from framelet.core.mesh.surface_mesh import SurfaceMesh
@@ -16,7 +16,7 @@ DTYPE = pytest.mark.parametrize("dtype", [np.float32, np.float64])
 
 
 def settings_of(preset, **changes):
-    return PRESETS[preset].settings.with_changes(**changes)
+    return preset_settings(preset, **changes)
 
 
 def as_type(mesh, dtype):

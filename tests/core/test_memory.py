@@ -9,6 +9,7 @@ import pytest
 from framelet.core import PRESETS, DenoiseSettings, SurfaceMesh, denoise
 from framelet.core import memory as module
 from framelet.core.memory import available_bytes, check_memory, estimated_bytes
+from framelet.core.settings import used_settings
 from meshes import faces_of, noisy, quad_torus
 
 TRI_2 = PRESETS["TRI_2"].settings
@@ -45,7 +46,8 @@ def surfaces():
 def test_the_estimate_is_near_the_peak(kind, changes, surfaces):
     """Within a factor of two, without what blocks in work take: on small meshes that is most of it."""
     mesh = surfaces[kind]
-    settings = TRI_2.with_changes(threads=1, iterations=3, **changes)
+    values = vars(TRI_2) | {"threads": 1, "iterations": 3} | changes
+    settings = DenoiseSettings(**used_settings(values))
     tracemalloc.start()
     denoise(mesh, settings)
     peak = tracemalloc.get_traced_memory()[1]

@@ -6,7 +6,7 @@ import threading
 
 import numpy as np
 import pytest
-from checks import TRIANGLE_PRESETS, edge_length, lengths
+from checks import TRIANGLE_PRESETS, edge_length, lengths, preset_settings
 from framelet.core import PRESETS, denoise
 from framelet.core.mesh.geometry import signed_volume
 from meshes import MESHES, faces_of, flipped, mixed_sheet, noisy, triangle_grid, triangle_torus, turned_over
@@ -15,7 +15,7 @@ PRESET = pytest.mark.parametrize("preset", TRIANGLE_PRESETS)
 
 
 def settings_of(preset, **changes):
-    return PRESETS[preset].settings.with_changes(**changes)
+    return preset_settings(preset, **changes)
 
 
 @PRESET

@@ -100,6 +100,7 @@ def solved(clean, noisy, stencil, shrinkage, numbers):
     """Return the positions that the package finds."""
     lambda_, mu, delta, iterations = numbers
     settings = DenoiseSettings(
+        method="POSITIONS",
         frame="LINEAR_SPLINE" if len(faces_of(clean)[0]) == 4 else "BOX_SPLINE_111",
         stencil=stencil,
         shrinkage=shrinkage,
@@ -158,7 +159,7 @@ def test_the_noisy_meshes_are_those_of_the_figures(cases, file):
 def test_the_float32_solver_gives_the_same_figures():
     clean = MADE["part"]()
     noisy = with_noise(clean)
-    settings = DenoiseSettings(lambda_=0.3 * edge(clean) / edge(noisy))
+    settings = DenoiseSettings(method="POSITIONS", lambda_=0.3 * edge(clean) / edge(noisy))
     result = clean.with_vertices(denoise(noisy, settings, region=AS_SOLVED).vertices)
     assert compare(result, clean).mean_angle == pytest.approx(7.5091, abs=1e-3)
 

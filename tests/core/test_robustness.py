@@ -4,7 +4,7 @@
 
 import numpy as np
 import pytest
-from checks import TRIANGLE_PRESETS, wild_mesh
+from checks import TRIANGLE_PRESETS, preset_settings, wild_mesh
 from framelet.core import PRESETS, SurfaceMesh, add_noise, denoise
 from framelet.core.blocks import BLOCK_SIZE
 from mesh_files import mesh_files, read_mesh
@@ -27,7 +27,7 @@ def assert_finite(mesh, settings):
 @BOUNDARY
 @pytest.mark.parametrize("name", MESHES)
 def test_every_mesh_made_in_code(name, preset, boundary, rng):
-    assert_finite(noisy(MESHES[name](), rng), PRESETS[preset].settings.with_changes(boundary=boundary))
+    assert_finite(noisy(MESHES[name](), rng), preset_settings(preset, boundary=boundary))
 
 
 @PRESET
@@ -41,7 +41,7 @@ def test_polygon_soups(preset, shortest):
 @PRESET
 @BOUNDARY
 def test_many_fans_and_high_valences(preset, boundary, rng):
-    settings = PRESETS[preset].settings.with_changes(boundary=boundary)
+    settings = preset_settings(preset, boundary=boundary)
     for mesh in (bow_tie(100), pyramid(150, closed=boundary == "ALONG")):
         assert_finite(noisy(mesh, rng), settings)
 
@@ -50,9 +50,7 @@ def test_many_fans_and_high_valences(preset, boundary, rng):
 def test_a_fan_with_5000_spokes(preset, rng):
     # Bilateral filtering takes all pairs of spokes: 400 of them are 160 000 already.
     spokes = 400 if preset == "BILATERAL" else 5000
-    assert_finite(
-        noisy(pyramid(spokes, closed=True), rng), PRESETS[preset].settings.with_changes(iterations=2)
-    )
+    assert_finite(noisy(pyramid(spokes, closed=True), rng), preset_settings(preset, iterations=2))
 
 
 @PRESET
@@ -84,9 +82,7 @@ def test_coincident_vertices_and_needles(preset):
     ],
 )
 def test_the_ends_of_the_ranges(preset, changes, rng):
-    result = denoise(
-        noisy(MESHES["mixed sheet"](), rng), PRESETS[preset].settings.with_changes(iterations=200, **changes)
-    )
+    result = denoise(noisy(MESHES["mixed sheet"](), rng), preset_settings(preset, iterations=200, **changes))
     assert np.isfinite(result.vertices).all()
 
 

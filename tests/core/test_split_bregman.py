@@ -37,7 +37,7 @@ def literal(mesh, settings, hold=()):
 @pytest.mark.parametrize("name", ["triangle torus", "irregular torus", "prism", "octahedron", "soup"])
 def test_matches_the_literal_iteration(name, changes, frame, rng):
     mesh = read_only(noisy(MESHES[name](), rng))
-    settings = DenoiseSettings(frame=frame, boundary="FREE", iterations=4, **changes)
+    settings = DenoiseSettings(method="POSITIONS", frame=frame, boundary="FREE", iterations=4, **changes)
     result = denoise(mesh, settings, dtype=np.float64, region=AS_SOLVED)
     expected = literal(mesh, settings, hold=np.flatnonzero(connect(mesh).is_loose))
     assert lengths(result.vertices - expected).max() < SAME * result.report.mean_edge_length
@@ -47,7 +47,9 @@ def test_matches_the_literal_iteration(name, changes, frame, rng):
 @pytest.mark.parametrize("changes", SETTINGS)
 def test_matches_the_literal_iteration_with_a_fixed_border(changes, rng):
     mesh = noisy(mixed_sheet(), rng)
-    settings = DenoiseSettings(frame="BOX_SPLINE_111", boundary="FIXED", iterations=5, **changes)
+    settings = DenoiseSettings(
+        method="POSITIONS", frame="BOX_SPLINE_111", boundary="FIXED", iterations=5, **changes
+    )
     connectivity = connect(mesh)
     hold = np.flatnonzero(connectivity.is_boundary | connectivity.is_loose)
     result = denoise(mesh, settings, dtype=np.float64, region=AS_SOLVED)
@@ -67,7 +69,7 @@ def test_displacement_bound_at_convergence(shrinkage, rule, frame, rng):
     mesh = noisy(flipped(triangle_torus()), rng, 0.5)
     lambda_ = 0.1
     settings = DenoiseSettings(
-        stencil=rule, shrinkage=shrinkage, frame=frame, lambda_=lambda_, iterations=800
+        method="POSITIONS", stencil=rule, shrinkage=shrinkage, frame=frame, lambda_=lambda_, iterations=800
     )
     changes = []
     result = denoise(
@@ -86,7 +88,9 @@ def test_displacement_bound_at_convergence(shrinkage, rule, frame, rng):
 @pytest.mark.parametrize("changes", SETTINGS)
 def test_one_iteration_changes_nothing(changes, rng):
     mesh = noisy(flipped(triangle_torus()), rng)
-    result = denoise(mesh, DenoiseSettings(frame="BOX_SPLINE_111", iterations=1, **changes))
+    result = denoise(
+        mesh, DenoiseSettings(method="POSITIONS", frame="BOX_SPLINE_111", iterations=1, **changes)
+    )
     assert np.array_equal(result.vertices, mesh.vertices)
     assert result.report.n_moved == 0
     assert result.report.iterations == 1
@@ -96,7 +100,9 @@ def test_one_iteration_changes_nothing(changes, rng):
 def test_lambda_zero_changes_nothing(dtype, tolerance, rng):
     mesh = noisy(mixed_sheet(), rng)
     for changes in SETTINGS:
-        settings = DenoiseSettings(frame="BOX_SPLINE_111", **{**changes, "lambda_": 0.0, "iterations": 30})
+        settings = DenoiseSettings(
+            method="POSITIONS", frame="BOX_SPLINE_111", **{**changes, "lambda_": 0.0, "iterations": 30}
+        )
         moved = denoise(mesh, settings, dtype=dtype).vertices - mesh.vertices
         assert lengths(moved).max() < tolerance * 30
 
@@ -104,7 +110,7 @@ def test_lambda_zero_changes_nothing(dtype, tolerance, rng):
 def test_larger_lambda_removes_more(rng):
     mesh = noisy(flipped(triangle_torus()), rng)
     rms = [
-        denoise(mesh, DenoiseSettings(lambda_=value)).report.displacement_rms
+        denoise(mesh, DenoiseSettings(method="POSITIONS", lambda_=value)).report.displacement_rms
         for value in (0.0, 0.05, 0.1, 0.2, 0.4)
     ]
     assert rms == sorted(rms)
@@ -114,7 +120,7 @@ def test_larger_lambda_removes_more(rng):
 def test_feedback_brings_the_input_back(rng):
     mesh = noisy(flipped(triangle_torus()), rng)
     rms = [
-        denoise(mesh, DenoiseSettings(delta=value, iterations=20)).report.displacement_rms
+        denoise(mesh, DenoiseSettings(method="POSITIONS", delta=value, iterations=20)).report.displacement_rms
         for value in (0, 0.05, 0.2)
     ]
     assert rms == sorted(rms, reverse=True)

@@ -5,7 +5,7 @@
 import threading
 
 import pytest
-from checks import assert_same_bits, read_only
+from checks import assert_same_bits, preset_settings, read_only
 from framelet.core import PRESETS, PreparationCache, denoise
 from framelet.core.blocks import Blocks, Stopped
 from meshes import noisy, triangle_torus
@@ -39,7 +39,7 @@ def counted(mesh, settings, **more):
 @pytest.mark.parametrize("threads", [1, 3])
 @pytest.mark.parametrize("preset", METHODS)
 def test_stops_at_any_question(preset, threads, mesh, rng):
-    settings = PRESETS[preset].settings.with_changes(threads=threads)
+    settings = preset_settings(preset, threads=threads)
     total = counted(mesh, settings)
     assert total > 10
     before = threading.active_count()

@@ -13,7 +13,7 @@ from ...operators.equalize import OBJECT_OT_framelet_equalize
 from ...operators.mesh_io import band_storage, mesh_facts
 from ...operators.properties.band_settings import EQUALIZER_NAMES, GAIN_NAMES, SHOW_NAMES, shown_names
 from ...operators.properties.scene_units import length_text
-from ...operators.properties.setting_values import copy_frame_settings, copy_values, has_effect, to_settings
+from ...operators.properties.setting_values import all_values, copy_frame_settings, copy_values, has_effect
 from ...operators.show_band import OBJECT_OT_framelet_show_band
 from ...operators.synthesize import OBJECT_OT_framelet_synthesize
 from .layouts import FrameletPanel, draw_frame, draw_value, settings_column
@@ -91,9 +91,9 @@ def _needed_bytes(scene: bpy.types.Scene, obj: bpy.types.Object | None) -> int |
     facts = mesh_facts.known_facts(obj)
     if facts is None:
         return None
-    settings = to_settings(scene.framelet)
-    frame = mesh_facts.resolve_frame(settings.frame, facts)
-    return mesh_facts.stored_bytes(frame, settings.stencil, settings.levels, facts)
+    values = all_values(scene.framelet)
+    frame = mesh_facts.resolve_frame(values["frame"], facts)
+    return mesh_facts.stored_bytes(frame, values["stencil"], values["levels"], facts)
 
 
 def _draw_stored(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:

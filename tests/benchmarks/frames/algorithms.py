@@ -62,7 +62,7 @@ def algorithms_for(is_quad: bool, n_vertices: int, is_quick: bool) -> list[Algor
         if not all_levels and not is_mean_of_main:
             continue
         for levels in LEVELS[: 2 if is_quick else 3] if all_levels else (1,):
-            settings = DenoiseSettings(frame=frame, stencil=stencil, levels=levels)
+            settings = DenoiseSettings(method="POSITIONS", frame=frame, stencil=stencil, levels=levels)
             found.append(
                 Algorithm(f"{frame} {stencil} {levels}", "FRAMES", settings, lambda_grid(settings, factors))
             )

@@ -9,7 +9,7 @@ import sys
 import bpy
 import loading  # noqa: F401
 import numpy as np
-from core_task import settings_of, warm_up
+from core_task import changed_a_little, settings_of, warm_up
 from framelet.operators.mesh_io import mesh_bridge
 from framelet.operators.run import denoise_object as operator_module
 from framelet.operators.run.preparations import preparations
@@ -73,7 +73,7 @@ def main():
     found = {"stages": dict(watch.seconds), "peak": peak_bytes() - before}
     # A value is dragged: the mesh is put back, as undo does, and the next run comes.
     mesh_bridge.write_vertices(obj, mesh_bridge.read_surface(obj), noisy.vertices)
-    again = settings.with_changes(lambda_=1.1 * settings.lambda_, sigma_n=1.1 * settings.sigma_n)
+    again = changed_a_little(settings)
     watch.run("rerun", lambda: operator_module.denoise_object(obj, again))
     found["stages"]["rerun"] = watch.seconds["rerun"]
     found |= {"n_vertices": noisy.n_vertices, "n_faces": noisy.n_faces, "kept": len(preparations())}

@@ -11,6 +11,7 @@ from framelet.core import PRESETS, DenoiseSettings, PreparationCache, SurfaceMes
 from framelet.core import prepared as prepared_module
 from framelet.core.memory import estimated_bytes
 from framelet.core.methods import METHODS
+from framelet.core.settings import used_settings
 from shapes import read_mesh
 from stopwatch import Stopwatch, begin_peak, peak_bytes, triad_seconds
 
@@ -38,12 +39,18 @@ def settings_of(options):
     return PRESETS[preset].settings.with_changes(**changes)
 
 
+def changed_a_little(settings):
+    """Return settings with one value changed that needs nothing prepared anew, as when it is dragged."""
+    name = {"AUTO": "strength", "POSITIONS": "lambda_", "BILATERAL": "sigma_c"}[settings.method]
+    return settings.with_changes(**{name: 1.1 * getattr(settings, name)})
+
+
 def warm_up(settings):
     """Import and set up what the first run would pay for."""
     points = np.random.default_rng(0).normal(size=(4, 3))
     mesh = SurfaceMesh.from_faces(points, [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)])
-    names = {"method": settings.method, "stencil": settings.stencil, "shrinkage": settings.shrinkage}
-    denoise(mesh, DenoiseSettings(**names, frame="BOX_SPLINE_111"))
+    values = vars(settings) | {"frame": "BOX_SPLINE_111", "levels": 1}
+    denoise(mesh, DenoiseSettings(**used_settings(values)))
     triad_seconds(12000)
 
 
@@ -64,7 +71,7 @@ def main():
     found["estimate"] = estimated_bytes(mesh.n_vertices, mesh.n_corners, settings)
     if options.get("rerun"):
         copy = mesh.with_vertices(mesh.vertices.copy())
-        again = settings.with_changes(lambda_=1.1 * settings.lambda_, strength=1.1 * settings.strength)
+        again = changed_a_little(settings)
         watch.run("rerun", lambda: denoise(copy, again, prepared=cache))
         found["stages"]["rerun"] = watch.seconds["rerun"]
     if settings.method == "POSITIONS" and settings.iterations > 1:

@@ -43,7 +43,9 @@ def test_every_frame_and_stencil(command, sheets, read_ply, tmp_path, frame, ste
     ]
     result = command("denoise", path, tmp_path / "out.ply", *words)
     assert (result.code, result.err) == (0, "")
-    expected = denoise(surface, DenoiseSettings(frame=frame, stencil=stencil, levels=2)).vertices
+    expected = denoise(
+        surface, DenoiseSettings(method="POSITIONS", frame=frame, stencil=stencil, levels=2)
+    ).vertices
     vertices = read_ply(tmp_path / "out.ply").vertices
     np.testing.assert_allclose(vertices, expected, atol=TOLERANCE)
     assert not np.array_equal(vertices, surface.vertices)

@@ -4,7 +4,7 @@
 
 import numpy as np
 import pytest
-from checks import assert_same_bits, lengths, random_rotation
+from checks import assert_same_bits, lengths, preset_settings, random_rotation
 from framelet.core import PRESETS, Region, denoise
 from framelet.core.limits.lines import (
     LARGEST_MOTION,
@@ -164,7 +164,7 @@ def test_a_noisy_ridge_stays_sharp_and_gets_straight(preset, rng):
 def test_nothing_to_remove_leaves_lines_alone(preset, rng):
     mesh, edges = box(6)
     mesh = noisy(mesh, rng, 0.1)
-    settings = PRESETS[preset].settings.with_changes(lambda_=0.0, strength=0.0)
+    settings = preset_settings(preset, lambda_=0.0, strength=0.0)
     if settings.method in ("POSITIONS", "AUTO"):
         result = denoise(mesh, settings, region=Region(feature_edges=edges)).vertices
         assert_same_bits(result, mesh.vertices)

@@ -4,7 +4,7 @@
 
 import numpy as np
 import pytest
-from checks import assert_same_bits, edge_length, lengths, random_rotation
+from checks import assert_same_bits, edge_length, lengths, preset_settings, random_rotation
 from framelet.core import PRESETS, Region, denoise
 from framelet.core.mesh.geometry import vertex_normals
 from meshes import flipped, noisy, triangle_grid, triangle_torus
@@ -79,9 +79,7 @@ def case(rng):
 
 
 def run(mesh, values, preset="TRI_2", **given):
-    return denoise(
-        mesh, PRESETS[preset].settings.with_changes(**given), region=Region(**values), dtype=np.float64
-    ).vertices
+    return denoise(mesh, preset_settings(preset, **given), region=Region(**values), dtype=np.float64).vertices
 
 
 def test_moving_and_turning(case, rng):

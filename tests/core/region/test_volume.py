@@ -21,7 +21,7 @@ from meshes import (
 )
 from region_cases import METHODS
 
-SHRINKING = DenoiseSettings(frame="BOX_SPLINE_111", lambda_=2.0, iterations=30)
+SHRINKING = DenoiseSettings(method="POSITIONS", frame="BOX_SPLINE_111", lambda_=2.0, iterations=30)
 MESHES = {
     "torus": triangle_torus,
     "irregular torus": lambda: flipped(triangle_torus()),

@@ -10,7 +10,7 @@ from framelet.core.mesh.geometry import vertex_normals
 from meshes import noisy, triangle_grid, triangle_torus
 from region_cases import METHODS, dihedral_angles, rings_from
 
-SHRINKING = DenoiseSettings(frame="BOX_SPLINE_111", lambda_=2.0, iterations=30)
+SHRINKING = DenoiseSettings(method="POSITIONS", frame="BOX_SPLINE_111", lambda_=2.0, iterations=30)
 """Removes so much that a torus becomes visibly thinner, and a hard seam would be a step."""
 
 
