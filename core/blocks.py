@@ -9,7 +9,6 @@ same bits for any number of threads.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from threading import Lock
@@ -18,6 +17,8 @@ from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
+
+from .processors import available_cores
 
 Result = TypeVar("Result")
 
@@ -36,7 +37,7 @@ class Blocks:
     Parameters
     ----------
     n_threads : int
-        Number of threads; 0 takes one for each core that this process may use.
+        Number of threads; 0 takes as many as `processors` says.
     block_size : int
         Number of elements in a block.
     """
@@ -176,10 +177,3 @@ class _Numbers:
 
 def _no_question() -> None:
     """Do not ask whether to stop: that is for the calling thread."""
-
-
-def available_cores() -> int:
-    """Return the number of cores that this process may use."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1

@@ -36,6 +36,7 @@ def denoise(
     should_stop: Callable[[], bool] | None = None,
     dtype: DTypeLike = np.float32,
     prepared: Prepared | PreparationCache | None = None,
+    max_bytes: int | None = None,
 ) -> DenoiseResult:
     """Clean a noisy surface.
 
@@ -59,6 +60,8 @@ def denoise(
         Precision of the solver: float32 for speed, float64 for exactness.
     prepared : Prepared or PreparationCache, optional
         What `prepare` made for this mesh and the same stencils, or a cache that sees to it.
+    max_bytes : int, optional
+        How much memory the run may take; by default there is no limit.
 
     Returns
     -------
@@ -70,13 +73,13 @@ def denoise(
     ------
     FrameletError
         In one sentence, if the mesh has no faces, no size or positions that are not finite, if `movable` or
-        the region does not fit it, if `prepared` is for something else, or if memory does not suffice.
+        the region does not fit it, if `prepared` is for something else, or if it needs more than `max_bytes`.
     """
     began = perf_counter()
     settings = settings or PRESETS[DEFAULT_PRESET].settings
     region = region or Region()
     placed = place(region, surface, movable)
-    check_memory(surface.n_vertices, surface.n_corners, settings)
+    check_memory(surface, settings, max_bytes)
     try:
         prepared = prepared_for(placed, settings, connectivity, dtype, should_stop, prepared)
         with prepared.blocks.with_threads(settings.threads).stopped_by(should_stop) as blocks:

@@ -1,14 +1,17 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How much memory a run takes, estimated before it begins, and how much there is."""
+"""How much memory a run takes, estimated before it begins."""
 
 from __future__ import annotations
 
-import os
 import sys
 from math import ceil
-from pathlib import Path
 
+import numpy as np
+from numpy.typing import NDArray
+
+from .errors import TooLargeError
+from .mesh.surface_mesh import SurfaceMesh
 from .settings import DenoiseSettings
 
 BASE_PER_VERTEX = 110
@@ -24,6 +27,13 @@ ADAPTIVE_ONCE = 100
 LATTICE_ONCE = 60
 """Bytes for each tap and level where masks fit the valence; and once, for finding dilated rings."""
 
+USUAL_VALENCE = 16
+"""Faces at a vertex up to which neighborhoods are as large as elsewhere."""
+
+PER_NEAR_PAIR, PER_DILATED_PAIR, PER_HUB_BAND = 80, 32, 52
+"""Bytes for each pair of vertices that see each other across a vertex of high valence: in the neighborhoods
+of the bilateral filter, while dilated rings are found, and for each band of the frame PAIRWISE."""
+
 MANY_ITEMS = 2**18
 """Vertices or faces from which on it pays to give freed memory back."""
 
@@ -36,7 +46,12 @@ _WIDE_FRAMES = {"BOX_SPLINE_FOUR_DIRECTION": 12} | {f"B_SPLINE_{n}": (n + 1) ** 
 _CELL_FRAMES = ("BOX_SPLINE_FOUR_DIRECTION", "B_SPLINE_1", "B_SPLINE_3", "B_SPLINE_5")
 
 
-def estimated_bytes(n_vertices: int, n_corners: int, settings: DenoiseSettings) -> int:
+def estimated_bytes(
+    n_vertices: int,
+    n_corners: int,
+    settings: DenoiseSettings,
+    high_valences: NDArray[np.integer] | tuple[int, ...] = (),
+) -> int:
     """Estimate the peak of what `denoise` takes besides the mesh itself.
 
     Parameters
@@ -45,6 +60,9 @@ def estimated_bytes(n_vertices: int, n_corners: int, settings: DenoiseSettings) 
         Size of the mesh; a triangle has three corners.
     settings : DenoiseSettings
         The run.
+    high_valences : ndarray, shape (h,), int, optional
+        Numbers of faces at vertices that have many, see `high_valences`: around these the number of pairs of
+        neighbors grows with the square.
 
     Returns
     -------
@@ -57,12 +75,40 @@ def estimated_bytes(n_vertices: int, n_corners: int, settings: DenoiseSettings) 
     if settings.method == "BILATERAL":
         reach = max(1, ceil(2.0 * settings.sigma_c))
         # Two numbers for each pair of neighbors, kept once, and held three more times while they are found.
-        return total + 64 * n_vertices * 3 * reach * (reach + 1)
-    return total + _frame_bytes(n_vertices, n_corners, settings)
+        total += 64 * n_vertices * 3 * reach * (reach + 1)
+        return total + PER_NEAR_PAIR * _hub_pairs(n_vertices, high_valences, reach * (reach - 1) / 2)
+    return total + _frame_bytes(n_vertices, n_corners, settings, high_valences)
 
 
-def _frame_bytes(n_vertices: int, n_corners: int, settings: DenoiseSettings) -> int:
+def _hub_pairs(n_vertices: int, valences: NDArray[np.integer] | tuple[int, ...], share: float) -> int:
+    """Return how many pairs of vertices see each other across vertices of high valence.
+
+    `share` is how many they are in units of the square of the valence: 1 where two steps are made, less
+    than 1 where none are.
+    """
+    if share < 1.0:
+        return 0
+    seen = np.minimum(np.asarray(valences, np.float64) * share**0.5, n_vertices)
+    return int(np.square(seen).sum())
+
+
+def _frame_bytes(
+    n_vertices: int,
+    n_corners: int,
+    settings: DenoiseSettings,
+    valences: NDArray[np.integer] | tuple[int, ...],
+) -> int:
     """Return what stencils and coefficients of the frame transform take."""
+    frame = settings.frame
+    of_hubs = PER_DILATED_PAIR * _hub_pairs(n_vertices, valences, 4 ** (settings.levels - 1) / 4)
+    if frame == "PAIRWISE":
+        bands = np.square(np.asarray(valences, np.float64)).sum() / 2
+        of_hubs += int(PER_HUB_BAND * settings.levels * bands)
+    return of_hubs + _taps_bytes(n_vertices, n_corners, settings)
+
+
+def _taps_bytes(n_vertices: int, n_corners: int, settings: DenoiseSettings) -> int:
+    """Return what stencils and coefficients take where no vertex has many neighbors."""
     frame = settings.frame
     n_neighbors = n_corners / max(n_vertices, 1)
     if settings.stencil == "ADAPTIVE" or frame in ("ADAPTIVE", "PAIRWISE"):
@@ -81,52 +127,11 @@ def _frame_bytes(n_vertices: int, n_corners: int, settings: DenoiseSettings) -> 
             n_levels -= 1
         total += n_levels * n_sites * n_taps * _PER_WALKED_TAP
         return int(total)
-    n_taps = 9 if frame.startswith("LINEAR") else 7
+    is_quads = frame.startswith("LINEAR") or (frame == "AUTO" and n_neighbors <= 5.0)
+    n_taps = 9 if is_quads else 7
     n_bands = 3 if settings.shrinkage in ("VECTOR", "SCALAR") else n_taps
     per_level = 4 * n_taps + 2 * _PER_BAND * n_bands
     return int(n_sites * (per_level * n_levels + LATTICE_ONCE * (n_levels > 1)))
-
-
-def available_bytes() -> int | None:
-    """Return how much memory is free for new work, in bytes; None if the system does not say."""
-    try:
-        for line in Path("/proc/meminfo").read_text(encoding="ascii").splitlines():
-            if line.startswith("MemAvailable:"):
-                return int(line.split()[1]) * 1024
-    except (OSError, ValueError, IndexError):
-        pass
-    if os.name == "nt":
-        return _available_on_windows()
-    for name in ("SC_AVPHYS_PAGES", "SC_PHYS_PAGES"):  # where free pages are not told, all that there are
-        try:
-            pages, size = os.sysconf(name), os.sysconf("SC_PAGE_SIZE")
-        except (AttributeError, ValueError, OSError):
-            continue
-        if pages > 0 and size > 0:
-            return pages * size
-    return None
-
-
-def _available_on_windows() -> int | None:
-    """Ask Windows for the free physical memory."""
-    import ctypes
-
-    class Status(ctypes.Structure):
-        _fields_ = (
-            ("length", ctypes.c_uint32),
-            ("load", ctypes.c_uint32),
-            *(
-                (name, ctypes.c_uint64)
-                for name in ("total", "free", "total_page", "free_page", "total_virtual", "free_virtual", "x")
-            ),
-        )
-
-    status = Status()
-    status.length = ctypes.sizeof(Status)
-    kernel = getattr(ctypes, "windll", None)
-    if kernel is None or not kernel.kernel32.GlobalMemoryStatusEx(ctypes.byref(status)):
-        return None
-    return int(status.free)
 
 
 def give_back(n_items: int) -> None:
@@ -143,17 +148,22 @@ def give_back(n_items: int) -> None:
         trim(0)
 
 
-def check_memory(n_vertices: int, n_corners: int, settings: DenoiseSettings) -> None:
-    """Raise ValueError, in one sentence, if a run takes more memory than there is.
-
-    Where the system does not say how much there is, nothing is refused.
-    """
-    needed, free = estimated_bytes(n_vertices, n_corners, settings), available_bytes()
-    if free is not None and needed > free:
-        raise ValueError(
-            f"{n_vertices:,} vertices need about {_text(needed)} of memory with these settings, but only "
-            f"{_text(free)} are free; close other programs, take fewer levels, or split the mesh."
+def check_memory(surface: SurfaceMesh, settings: DenoiseSettings, max_bytes: int | None) -> None:
+    """Raise TooLargeError, in one sentence, if a run takes more memory than it may; None for no limit."""
+    if max_bytes is None:
+        return
+    needed = estimated_bytes(surface.n_vertices, surface.n_corners, settings, high_valences(surface))
+    if needed > max_bytes:
+        raise TooLargeError(
+            f"{surface.n_vertices:,} vertices need about {_text(needed)} of memory with these settings, but "
+            f"only {_text(max_bytes)} are free; close other programs, take fewer levels, or split the mesh."
         )
+
+
+def high_valences(surface: SurfaceMesh) -> NDArray[np.intp]:
+    """Return the numbers of faces at the vertices that have more than `USUAL_VALENCE`, shape (h,)."""
+    counts = np.bincount(surface.corner_vertex)
+    return counts[counts > USUAL_VALENCE]
 
 
 def _text(n_bytes: int) -> str:

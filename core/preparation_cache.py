@@ -15,7 +15,7 @@ from .errors import FrameletError
 from .limits.placed import Placed
 from .mesh.connectivity import Connectivity
 from .mesh.surface_mesh import SurfaceMesh
-from .prepared import Prepared, prepare_again
+from .prepared import Prepared, prepare_again, prepare_once
 from .settings import DenoiseSettings
 
 MAX_BYTES = 2**30
@@ -102,7 +102,7 @@ def prepared_for(
     if isinstance(known, PreparationCache):
         return known.prepare(surface, settings, dtype, should_stop)
     if known is None:
-        return prepare_again(surface, settings, None, connectivity, dtype, should_stop, is_kept=False)
+        return prepare_once(surface, settings, connectivity, dtype, should_stop)
     if not known.fits(surface, settings, dtype):
         raise FrameletError("This was prepared for another mesh or other stencils; prepare it again.")
     return known

@@ -197,6 +197,17 @@ def prepare(
     return prepare_again(surface, settings, previous, connectivity, dtype, should_stop)
 
 
+def prepare_once(
+    surface: SurfaceMesh,
+    settings: DenoiseSettings,
+    connectivity: Connectivity | None,
+    dtype: DTypeLike,
+    should_stop: Callable[[], bool] | None,
+) -> Prepared:
+    """Do what `prepare` does for one run, during which nobody may write to the mesh: it is not copied."""
+    return prepare_again(surface, settings, None, connectivity, dtype, should_stop, is_kept=False)
+
+
 def prepare_again(
     surface: SurfaceMesh,
     settings: DenoiseSettings,

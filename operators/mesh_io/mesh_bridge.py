@@ -293,7 +293,10 @@ def read_arrays(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey | None) -> Surface
         mesh.attributes[".corner_vert"].data.foreach_get("value", corner_vertex)
         mesh.attributes[".corner_edge"].data.foreach_get("value", corner_edge)
         read_face_starts(mesh, face_offset[:-1])
-    return SurfaceMesh.trusted(vertices, corner_vertex, corner_edge, face_offset, edges)
+    arrays = (vertices, corner_vertex, corner_edge, face_offset, edges)
+    for array in arrays:
+        array.flags.writeable = False  # so that nobody has to copy them to be sure
+    return SurfaceMesh.trusted(*arrays)
 
 
 def read_positions(mesh: bpy.types.Mesh) -> NDArray[np.float32]:

@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
+from ..machine import available_bytes
 from ..properties.scene_units import displacement_by, length_by
 from .preparations import borrowed_preparations
 
@@ -111,6 +112,7 @@ def compute(
                 callback=callback,
                 should_stop=should_stop,
                 prepared=cache,
+                max_bytes=available_bytes(),
             )
         except ValueError as error:
             raise ValueError(f"‘{job.name}’: {error}") from error

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from framelet.core import PRESETS, DenoiseSettings, SurfaceMesh, denoise
 from framelet.core import memory as module
-from framelet.core.memory import available_bytes, check_memory, estimated_bytes
+from framelet.core.errors import TooLargeError
+from framelet.core.memory import check_memory, estimated_bytes, high_valences
 from framelet.core.settings import used_settings
 from meshes import faces_of, noisy, quad_torus
 
@@ -68,58 +69,69 @@ def test_the_estimate_grows_with_the_mesh(preset):
         assert estimated_bytes(10**6, 6 * 10**6, settings.with_changes(levels=3)) > small
 
 
-def test_a_run_that_does_not_fit_is_refused_before_it_begins(surfaces, monkeypatch):
+def test_a_run_that_does_not_fit_is_refused_before_it_begins(surfaces):
     mesh = surfaces["triangles"]
-    monkeypatch.setattr(module, "available_bytes", lambda: 10**7)
     with pytest.raises(
-        ValueError, match=r"24,000 vertices need about .* MB of memory .* only 10 MB are free"
+        TooLargeError, match=r"24,000 vertices need about .* MB of memory .* only 10 MB are free"
     ):
-        denoise(mesh, TRI_2)
+        denoise(mesh, TRI_2, max_bytes=10**7)
     bad = SurfaceMesh.from_faces(np.full((3, 3), np.nan), [(0, 1, 2)])
-    with pytest.raises(ValueError, match="of memory"):
-        denoise(bad, TRI_2)  # nothing of the mesh was looked at
+    with pytest.raises(TooLargeError, match="of memory"):
+        denoise(bad, TRI_2, max_bytes=10**7)  # nothing of the mesh was looked at
+    denoise(mesh, TRI_2, max_bytes=2 * estimated_bytes(mesh.n_vertices, mesh.n_corners, TRI_2))
 
 
-def test_nothing_is_refused_where_memory_is_unknown(surfaces, monkeypatch):
-    monkeypatch.setattr(module, "available_bytes", lambda: None)
-    check_memory(10**12, 6 * 10**12, DenoiseSettings())
+def test_large_numbers_are_in_gigabytes():
+    wide = DenoiseSettings(method="BILATERAL", sigma_c=2.0)
+    with pytest.raises(TooLargeError, match=r"need about \d\d\.\d GB .* only 7\.9 GB are free"):
+        check_memory(fan(9000), wide, 7_900_000_000)
+    check_memory(fan(9000), wide, None)
 
 
-def test_available_memory():
-    found = available_bytes()
-    assert found is None or 10**6 < found < 2**50
-
-
-@pytest.mark.parametrize("text", ["", "MemAvailable: much\n", "MemAvailable:\n", None])
-def test_systems_that_tell_otherwise(text, monkeypatch):
-    """Without a readable /proc/meminfo the system is asked; without an answer the result is None."""
-
-    def read_text(self, **_):
-        if text is None:
-            raise OSError("no such file")
-        return text
-
-    monkeypatch.setattr(module.Path, "read_text", read_text)
-    monkeypatch.setattr(
-        module.os, "sysconf", lambda name: {"SC_PAGE_SIZE": 4096}.get(name, 1000), raising=False
+def fan(n):
+    """Return a closed cylinder whose caps are fans of n triangles."""
+    angle = 2 * np.pi * np.arange(n) / n
+    rim = np.stack((n / 6.28 * np.cos(angle), n / 6.28 * np.sin(angle), 0 * angle), axis=1)
+    points = np.concatenate(
+        [*(rim + np.array([0, 0, height]) for height in range(6)), [[0, 0, 0], [0, 0, 5]]]
     )
-    assert available_bytes() == 4096 * 1000
+    here, there = np.arange(n), (np.arange(n) + 1) % n
+    sides = [
+        np.stack(corners, axis=1) + row * n
+        for row in range(5)
+        for corners in ((here, there, there + n), (here, there + n, here + n))
+    ]
+    caps = [np.stack((here * 0 + 6 * n, there, here), axis=1)]
+    caps.append(np.stack((here * 0 + 6 * n + 1, here + 5 * n, there + 5 * n), axis=1))
+    points += np.random.default_rng(1).normal(scale=0.2, size=points.shape)
+    return SurfaceMesh.from_faces(points.astype(np.float32), np.concatenate((*sides, *caps)))
 
-    def silent(name):
-        raise ValueError("unrecognized configuration name")
 
-    monkeypatch.setattr(module.os, "sysconf", silent, raising=False)
-    assert available_bytes() is None
-    if module.os.name != "nt":
-        assert module._available_on_windows() is None  # no such library here
+HUBS = [
+    {"method": "BILATERAL", "iterations": 2},
+    {"method": "BILATERAL", "iterations": 2, "sigma_c": 1.5},
+    {"method": "POSITIONS", "frame": "BOX_SPLINE_111", "levels": 2, "iterations": 3},
+    {"method": "POSITIONS", "frame": "BOX_SPLINE_111", "levels": 3, "iterations": 3},
+    {"method": "POSITIONS", "frame": "PAIRWISE", "iterations": 3},
+    {"method": "POSITIONS", "frame": "ADAPTIVE", "iterations": 3},
+]
 
 
-def test_large_numbers_are_in_gigabytes(monkeypatch):
-    monkeypatch.setattr(module, "available_bytes", lambda: 7_900_000_000)
-    with pytest.raises(
-        ValueError, match=r"90,000,000 vertices need about \d\d\.\d GB .* only 7\.9 GB are free"
-    ):
-        check_memory(90_000_000, 540_000_000, TRI_2)
+@pytest.mark.parametrize("changes", HUBS)
+def test_the_estimate_knows_vertices_of_high_valence(changes):
+    """What pairs across a hub take grows with the square of its valence; it is known within 1.5 times."""
+    settings = DenoiseSettings(threads=1, **changes)
+    for n in (350, 700):
+        mesh = fan(n)
+        tracemalloc.start()
+        denoise(mesh, settings)
+        peak = tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+        estimate = estimated_bytes(mesh.n_vertices, mesh.n_corners, settings, high_valences(mesh))
+        assert peak < 1.5 * estimate
+        assert estimate - module._FIXED < 1.5 * max(peak, module._FIXED)
+        with pytest.raises(TooLargeError):
+            denoise(mesh, settings, max_bytes=estimate - 1)
 
 
 def test_faces_of_the_test_meshes_are_what_they_are_called(surfaces):
