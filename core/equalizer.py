@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import DTypeLike, NDArray
+from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from .blocks import Blocks
 from .errors import SettingError
@@ -29,7 +29,7 @@ def equalize(
     frame: str = "AUTO",
     stencil: str = "STRAIGHT",
     boundary: str = "ALONG",
-    weights: NDArray[np.floating] | None = None,
+    weights: ArrayLike | None = None,
     connectivity: Connectivity | None = None,
     threads: int = 0,
     dtype: DTypeLike = np.float32,
@@ -44,7 +44,7 @@ def equalize(
         One gain for each level, finest first: below 1 smooths that scale, above 1 exaggerates it, 1 keeps it.
     frame, stencil, boundary : str
         See `DenoiseSettings`.
-    weights : ndarray, shape (N,), optional
+    weights : array_like, shape (N,), optional
         How much of the change each vertex takes, 0 to 1; all of it by default.
     connectivity : Connectivity, optional
         Neighborhoods of the mesh, if they are known already.
@@ -69,6 +69,7 @@ def equalize(
     As the transform is linear, S' - S is the inverse transform of {(g_j - 1) high_j, 0}; it is added to the
     positions, so that nothing is lost where gains are 1.
     """
+    weights = None if weights is None else np.asarray(weights, np.float64)
     _check(gains, weights, surface.n_vertices)
     edge = check_surface(surface)
     with Blocks(threads) as blocks:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import sys
 from math import ceil
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -109,7 +110,7 @@ def _frame_bytes(
 
 def _taps_bytes(n_vertices: int, n_corners: int, settings: DenoiseSettings) -> int:
     """Return what stencils and coefficients take where no vertex has many neighbors."""
-    frame = settings.frame
+    frame: Any = settings.frame  # a name, or a bank of one's own
     n_neighbors = n_corners / max(n_vertices, 1)
     if settings.stencil == "ADAPTIVE" or frame in ("ADAPTIVE", "PAIRWISE"):
         n_bands = n_neighbors * (n_neighbors + 1) / 2 if frame == "PAIRWISE" else n_neighbors
@@ -118,9 +119,9 @@ def _taps_bytes(n_vertices: int, n_corners: int, settings: DenoiseSettings) -> i
     n_sites: float = n_vertices
     n_levels = settings.levels
     total = 0.0
-    if frame in _WIDE_FRAMES:
-        n_taps = _WIDE_FRAMES[frame]
-        if frame in _CELL_FRAMES:
+    if frame in _WIDE_FRAMES or not isinstance(frame, str):
+        n_taps = _WIDE_FRAMES[frame] if isinstance(frame, str) else frame.n_taps
+        if frame in _CELL_FRAMES or getattr(frame, "is_cell_centered", False):
             # Cells are pairs of triangles or quads; at coarser levels the sites are the vertices.
             is_triangles = n_neighbors > 5.0
             total += _PER_CELL_TAP * n_taps * (n_corners / 2 if is_triangles else n_corners / 4)

@@ -29,12 +29,10 @@ def estimate_object_noise(obj: bpy.types.Object) -> MeasuredNoise:
     if obj.type != "MESH":
         raise ValueError(f"‘{obj.name}’ is not a mesh; select mesh objects.")
     from ..core import estimate_noise
-    from ..core.blocks import Blocks
 
     surface = mesh_bridge.read_surface(obj)
     try:
-        with Blocks() as blocks:
-            noise = estimate_noise(surface, blocks=blocks)
+        noise = estimate_noise(surface, threads=0)
     except ValueError as error:
         raise ValueError(f"‘{obj.name}’: {error}") from error
     return MeasuredNoise(noise, length_in_scene(obj, 1.0))

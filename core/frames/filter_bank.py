@@ -71,6 +71,10 @@ class FilterBank:
         for array in (self.offsets, self.masks, self.reconstruction):
             array.flags.writeable = False
 
+    def __repr__(self) -> str:
+        kind = "cells" if self.is_cell_centered else "vertices"
+        return f"FilterBank({self.name}, {self.lattice}, {kind}, {self.n_taps} taps, {self.n_bands} bands)"
+
     def _check_shapes(self) -> None:
         if self.lattice not in ("TRIANGLES", "QUADS", "ANY"):
             raise FrameError(

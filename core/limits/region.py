@@ -19,10 +19,10 @@ class Region:
 
     Attributes
     ----------
-    weights : ndarray, shape (N,), float, or None
+    weights : array_like, shape (N,), or None
         Share of its motion that each vertex makes, from 0 to 1. Vertices with weight 0 are used but stay
         where they are, bit for bit; None for 1 everywhere.
-    feature_edges : ndarray, shape (E, 2), int, or None
+    feature_edges : array_like of int, shape (E, 2), or None
         Edges, as pairs of vertices, that form feature lines: their vertices are smoothed along the line only,
         see `lines.py`. Edges of a vertex with itself are left out.
     max_displacement : float or None
@@ -53,9 +53,14 @@ class Region:
 
     def __post_init__(self) -> None:
         if self.weights is not None:
-            _check_weights(np.asarray(self.weights))
+            weights = np.asarray(self.weights)
+            if weights.dtype.kind in "biu":
+                weights = weights.astype(np.float64)
+            object.__setattr__(self, "weights", weights)
+            _check_weights(weights)
         if self.feature_edges is not None:
             edges = np.asarray(self.feature_edges)
+            object.__setattr__(self, "feature_edges", edges)
             if edges.ndim != 2 or edges.shape[1] != 2 or not np.issubdtype(edges.dtype, np.integer):
                 raise RegionError(
                     f"The feature edges are {edges.dtype} of shape {edges.shape}; expected whole numbers of "

@@ -62,6 +62,19 @@ def corner_list(
     return whole_numbers(np.asarray(items), "faces"), offset.astype(np.int32)
 
 
+def flat_corners(corners: ArrayLike, offsets: ArrayLike) -> tuple[NDArray[np.integer], NDArray[np.int32]]:
+    """Return the vertices of all corners, shape (C,), and the checked first corner of each face (F + 1,)."""
+    flat = whole_numbers(np.asarray(corners), "corners")
+    offset = whole_numbers(np.asarray(offsets), "offsets")
+    if flat.ndim != 1:
+        raise MeshError(f"The corners have shape {flat.shape}; beside offsets they must be a flat list.")
+    if offset.ndim != 1 or not len(offset) or offset[0] != 0 or offset[-1] != len(flat):
+        raise MeshError(f"The offsets must begin with 0 and end with the number of corners, {len(flat)}.")
+    if (np.diff(offset) < 0).any():
+        raise MeshError("The offsets must ascend; each is the first corner of a face.")
+    return flat, offset.astype(np.int32)
+
+
 def whole_numbers(numbers: NDArray, name: str) -> NDArray[np.integer]:
     """Return an array of whole numbers, or raise MeshError if it holds anything else."""
     if numbers.size and numbers.dtype.kind not in "iu":

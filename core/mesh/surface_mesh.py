@@ -22,6 +22,7 @@ from .face_checks import (
     check_shape,
     check_sizes,
     corner_list,
+    flat_corners,
     positions_of,
     whole_numbers,
 )
@@ -197,6 +198,8 @@ class SurfaceMesh:
         vertices: ArrayLike,
         faces: ArrayLike | Sequence[Sequence[int]],
         loose_edges: ArrayLike = (),
+        *,
+        offsets: ArrayLike | None = None,
     ) -> SurfaceMesh:
         """Make a mesh from lists of vertex numbers.
 
@@ -208,6 +211,9 @@ class SurfaceMesh:
             The vertices of each face, in its orientation.
         loose_edges : array_like of int, shape (L, 2), optional
             Edges that belong to no face.
+        offsets : array_like of int, shape (F + 1,), optional
+            First corner of each face, and the number of corners at the end: `faces` is then the flat list of
+            the vertices of all corners, shape (C,).
 
         Raises
         ------
@@ -220,9 +226,11 @@ class SurfaceMesh:
         >>> mesh = SurfaceMesh.from_faces(np.eye(3), [[0, 1, 2]])
         >>> mesh.edges.tolist()
         [[0, 1], [0, 2], [1, 2]]
+        >>> SurfaceMesh.from_faces(np.zeros((5, 3)), [0, 1, 2, 0, 2, 3, 4], offsets=[0, 3, 7]).face_sizes()
+        array([3, 4], dtype=int32)
         """
         positions = positions_of(vertices)
-        flat, offset = corner_list(faces)
+        flat, offset = corner_list(faces) if offsets is None else flat_corners(faces, offsets)
         loose = whole_numbers(np.asarray(loose_edges), "loose edges").reshape(-1, 2)
         check_range(flat, len(positions), "A face", offset)
         check_range(loose.reshape(-1), len(positions), "A loose edge")

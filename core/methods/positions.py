@@ -4,10 +4,14 @@
 
 from __future__ import annotations
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ..noise import estimate_noise
 from ..transform import choose_frame
 from .problem import Problem, Solution
-from .split_bregman import split_bregman
+from .proximal import SoftThreshold
+from .split_bregman import Steps, split_bregman
 from .tuning import tuned
 
 
@@ -31,7 +35,18 @@ def shrink_positions(problem: Problem) -> Solution:
     if settings.lambda_ == 0.0:  # nothing is shrunk, so nothing moves
         return Solution(problem.noisy, settings.iterations, False, settings, noise)
     assert problem.transform is not None
+    callback, n_all = problem.callback, settings.iterations
+
+    def watch(iteration: int, _: NDArray[np.floating], motion: float) -> bool:
+        return callback is not None and callback((iteration - 1) / (n_all - 1), motion)
+
     points, iterations, is_stopped = split_bregman(
-        problem.noisy, problem.transform, settings, problem.constraints, problem.blocks, problem.callback
+        problem.noisy,
+        problem.transform,
+        SoftThreshold(settings.lambda_, settings.shrinkage),
+        Steps(settings.mu, settings.delta, n_all, settings.tolerance),
+        problem.constraints,
+        problem.blocks,
+        watch,
     )
     return Solution(points, iterations, is_stopped, settings, noise)

@@ -4,28 +4,43 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
 from ..limits.constraints import Constraints
-from ..settings import DenoiseSettings
 from ..transform import FrameTransform
 from ..transform.level import Chunk, Level
-from .problem import Callback
 from .progress import rms_motion
-from .shrinkage import clipped
+from .proximal import Penalty
+
+Watch = Callable[[int, NDArray[np.floating], float], bool]
+"""`watch(iteration, points, motion)`: iterations done, positions (3, N) and rms motion of the last one;
+returns True to stop."""
+
+
+class Steps(NamedTuple):
+    """How the iteration goes: penalty mu, feedback delta, how often, and the motion at which it ends."""
+
+    mu: float = 1.0
+    delta: float = 0.0
+    iterations: int = 10
+    tolerance: float = 0.0
 
 
 def split_bregman(
     noisy: NDArray[np.floating],
     transform: FrameTransform,
-    settings: DenoiseSettings,
-    constraints: Constraints,
+    penalty: Penalty,
+    steps: Steps,
+    constraints: Constraints | None,
     blocks: Blocks,
-    callback: Callback | None = None,
+    callback: Watch | None = None,
 ) -> tuple[NDArray[np.floating], int, bool]:
-    """Minimize 1/2 |S - S~|^2 + lambda |W S|_1 (4.1).
+    """Minimize 1/2 |S - S~|^2 + g(W S), with g = lambda |.|_1 in the paper (4.1).
 
     Parameters
     ----------
@@ -33,14 +48,16 @@ def split_bregman(
         Noisy positions S~ in mean edge lengths, coordinates in rows; not modified.
     transform : FrameTransform
         W with frozen stencils, chosen on the noisy surface, in the dtype of `noisy`.
-    settings : DenoiseSettings
-        Shrinkage, lambda, mu, delta, iterations, tolerance.
-    constraints : Constraints
+    penalty : Penalty
+        What is to be small, g; lambda |.|_1 in the paper.
+    steps : Steps
+        mu, delta, iterations, tolerance.
+    constraints : Constraints or None
         Vertices that may not move freely.
     blocks : Blocks
         Threads to work on.
     callback : callable, optional
-        See `problem.Callback`.
+        See `Watch`.
 
     Returns
     -------
@@ -65,12 +82,12 @@ def split_bregman(
     not computed.
     """
     dtype = noisy.dtype.type
-    mu, delta, damping = dtype(settings.mu), dtype(settings.delta), dtype(1.0 / (1.0 + settings.mu))
-    visits = [_Shrinkage(level, settings) for level in transform.levels]
+    mu, delta, damping = dtype(steps.mu), dtype(steps.delta), dtype(1.0 / (1.0 + steps.mu))
+    visits = [_Shrinkage(level, penalty, steps.mu) for level in transform.levels]
     current, moved = noisy.copy(), np.empty_like(noisy)
-    drift = np.zeros_like(noisy) if settings.delta > 0 else None  # c
+    drift = np.zeros_like(noisy) if steps.delta > 0 else None  # c
 
-    for iteration in range(2, settings.iterations + 1):
+    for iteration in range(2, steps.iterations + 1):
         change = transform.rebuild_changes(current, visits)
 
         def update(
@@ -92,25 +109,25 @@ def split_bregman(
 
         blocks.run(update, noisy.shape[1])
         del change, update  # their memory is needed by the next iteration
-        constraints.apply(moved, noisy)
+        if constraints is not None:
+            constraints.apply(moved, noisy)
         motion = rms_motion(moved, current, blocks)
         current, moved = moved, current
-        if callback is not None and callback((iteration - 1) / (settings.iterations - 1), motion):
+        if callback is not None and callback(iteration, current, motion):
             return current, iteration, True
-        if motion < settings.tolerance:
+        if motion < steps.tolerance:
             return current, iteration, False
-    return current, settings.iterations, False
+    return current, steps.iterations, False
 
 
 class _Shrinkage:
     """Turns the bands W S of one level into b - 2 b', where b' is the new b, and keeps that."""
 
-    def __init__(self, level: Level, settings: DenoiseSettings) -> None:
+    def __init__(self, level: Level, penalty: Penalty, mu: float) -> None:
         self._groups = [level.group_starts(index) for index in range(len(level.sites))]
         self._unpenalized = [level.unpenalized(index) for index in range(len(level.sites))]
         self._residual: list[Chunk | None] = [None] * len(level.sites)  # b, zero at first
-        self._threshold = settings.lambda_ / settings.mu
-        self._kind = settings.shrinkage
+        self._penalty, self._mu = penalty, mu
 
     def __call__(self, index: int, high: Chunk) -> None:
         """Replace the high bands of one chunk, in place; a `Visit`."""
@@ -124,7 +141,7 @@ class _Shrinkage:
         if residual is not None:
             for bands, own in shrunk:
                 high[:, bands] += residual[:, own]
-        cut = clipped(high, self._threshold, self._kind, self._groups[index])
+        cut = self._penalty.removed(high, self._mu, self._groups[index])
         cut[:, free] = 0
         np.multiply(cut, high.dtype.type(-2), out=high)
         if residual is not None:

@@ -41,6 +41,7 @@ def tuned(settings: DenoiseSettings, frame: str, noise: NoiseEstimate) -> Denois
     DenoiseSettings
         A mesh without noise gets λ = 0, so that nothing moves.
     """
+    frame = getattr(frame, "name", frame)  # of a bank of one's own
     sigma = noise.sigma_edges
     if noise.is_impulsive and noise.sigma > 0:
         sigma *= noise.rms / noise.sigma

@@ -79,7 +79,12 @@ give method="POSITIONS".
         methods=("POSITIONS",),
     )
     frame: str = _setting(
-        "AUTO", "Frame", "The filter bank of the wavelet frame", choices=FRAMES, methods=("POSITIONS",)
+        "AUTO",
+        "Frame",
+        "The filter bank of the wavelet frame",
+        choices=FRAMES,
+        methods=("POSITIONS",),
+        own="masks",
     )
     stencil: str = _setting(
         "STRAIGHT",
@@ -184,7 +189,7 @@ give method="POSITIONS".
             info, value = item.metadata["info"], getattr(self, item.name)
             check_value(info, str(item.type), value)
             if value != item.default and not info.has_effect(self.method):
-                shown = repr(value) if isinstance(value, str) else f"{value:g}"
+                shown = f"{value:g}" if isinstance(value, int | float) else repr(value)
                 raise SettingError(
                     f"{item.name} is {shown}, but the method {self.method} does not use it; leave it out, or "
                     f'give method="{info.methods[0]}".'

@@ -18,7 +18,8 @@ class SettingInfo:
     """What a user interface needs to know about one setting.
 
     `soft_maximum` is where a slider ends; typing may go up to `maximum`. `symbol` is the paper's letter.
-    `methods` are the methods that use the setting; empty for all. `unit` is LENGTH for lengths in the scene.
+    `methods` are the methods that use the setting; empty for all. `own` is an attribute by which an object
+    of one's own is known that may stand for a choice. `unit` is LENGTH for lengths in the scene.
     """
 
     label: str
@@ -30,6 +31,7 @@ class SettingInfo:
     symbol: str = ""
     methods: tuple[str, ...] = ()
     unit: str = ""
+    own: str = ""
 
     def has_effect(self, method: str) -> bool:
         """Tell whether a method uses the setting."""
@@ -47,6 +49,8 @@ def check_value(info: SettingInfo, kind: str, value: Any) -> None:
     `kind` is the type of the field: "int", "float", "bool" or "str".
     """
     label = f"{info.label} ({info.symbol})" if info.symbol else info.label
+    if info.own and hasattr(value, info.own):
+        return
     if info.choices:
         names = [choice.identifier for choice in info.choices]
         if value not in names:

@@ -26,12 +26,12 @@ __all__ = [
 
 def analyze(
     surface: SurfaceMesh,
-    bank: str | FilterBank = "BOX_SPLINE_111",
+    frame: str | FilterBank = "AUTO",
     stencil: str = "STRAIGHT",
-    n_levels: int = 1,
+    levels: int = 1,
 ) -> FrameCoefficients:
     """Decompose a surface in float64; see `make_transform` for the parameters and errors."""
-    return make_transform(surface, bank, stencil, n_levels).analyze(surface.vertices)
+    return make_transform(surface, frame, stencil, levels).analyze(surface.vertices)
 
 
 def synthesize(coefficients: FrameCoefficients) -> NDArray[np.floating]:

@@ -192,6 +192,16 @@ class AdaptiveLevel:
         """Number of high bands at the vertex with the most neighbors."""
         return max(chunk.bank.n_bands for chunk in self._chunks) - 1
 
+    @property
+    def chunk_bands(self) -> list[int]:
+        """For each chunk, its number of high bands."""
+        return [chunk.bank.n_bands - 1 for chunk in self._chunks]
+
+    @property
+    def is_tight(self) -> bool:
+        """True: masks that fit the valence are tight on every mesh."""
+        return True
+
     def group_starts(self, chunk: int) -> NDArray[np.intp] | None:
         """Return where groups of bands begin that are shrunk as one; see `Level`."""
         return self._chunks[chunk].bank.group_starts

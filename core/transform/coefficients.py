@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -34,6 +34,19 @@ class FrameCoefficients:
     low: NDArray[np.floating]
     chunks: list[list[Chunk]]
     transform: FrameTransform
+
+    def __iter__(self) -> Iterator[NDArray[np.floating]]:
+        return (self[place] for place in range(len(self)))
+
+    def __len__(self) -> int:
+        return 1 + len(self.chunks)
+
+    def __getitem__(self, place: int) -> NDArray[np.floating]:
+        """Return an array of coefficients, coarse to fine: the low-pass, then each level's high bands."""
+        if not -len(self) <= place < len(self):
+            raise IndexError(place)
+        place %= len(self)
+        return self.low if place == 0 else self.details(len(self.chunks) - place)
 
     def details(self, level: int) -> NDArray[np.floating]:
         """Return the high bands of a level as one array, shape (H, n_sites, 3).

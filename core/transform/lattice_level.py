@@ -76,6 +76,12 @@ class LatticeLevel:
         self.sites = [slice(start, min(start + blocks.block_size, stencil.n_sites)) for start in starts]
         self._dtype = np.dtype(dtype)
         self._scratch = _Scratch()
+        self._is_tight = (
+            stencil.is_vertex_centered
+            and bank.is_tight
+            and len(bands) == bank.n_bands
+            and not stencil.is_irregular.any()
+        )
         self._incidence = None if stencil.is_vertex_centered else _Incidence(stencil, len(self._rows), dtype)
 
     @property
@@ -92,6 +98,16 @@ class LatticeLevel:
     def n_high(self) -> int:
         """Number of high bands."""
         return len(self._masks) - 1
+
+    @property
+    def chunk_bands(self) -> list[int]:
+        """For each chunk, its number of high bands."""
+        return [self.n_high] * len(self.sites)
+
+    @property
+    def is_tight(self) -> bool:
+        """Whether all vertices are regular, so that the masks are those of the lattice."""
+        return self._is_tight
 
     def group_starts(self, chunk: int) -> NDArray[np.intp] | None:
         """Return None: every band is shrunk by itself."""

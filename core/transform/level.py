@@ -42,6 +42,21 @@ class Level(Protocol):
         """Number of vertices."""
         ...
 
+    @property
+    def n_high(self) -> int:
+        """Number of high bands, where it differs the largest."""
+        ...
+
+    @property
+    def chunk_bands(self) -> Sequence[int]:
+        """For each chunk, its number of high bands."""
+        ...
+
+    @property
+    def is_tight(self) -> bool:
+        """Whether the level is known to keep energy with respect to its measures."""
+        ...
+
     def group_starts(self, chunk: int) -> NDArray[np.intp] | None:
         """Return where groups of bands begin that vector shrinkage treats as one; None for single bands."""
         ...

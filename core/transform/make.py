@@ -28,7 +28,7 @@ def make_transform(
     surface: SurfaceMesh,
     frame: str | FilterBank = "BOX_SPLINE_111",
     stencil: str = "STRAIGHT",
-    n_levels: int = 1,
+    levels: int = 1,
     *,
     boundary: str = "ALONG",
     connectivity: Connectivity | None = None,
@@ -43,10 +43,10 @@ def make_transform(
     surface : SurfaceMesh
         The surface; not modified. The stencils of level j are chosen on its low-pass low_j.
     frame : str or FilterBank
-        A name in `BANKS`, ADAPTIVE or PAIRWISE, or a bank of your own.
+        A name in `BANKS`, ADAPTIVE, PAIRWISE, AUTO for the one that fits the faces, or a bank of your own.
     stencil : {"MEAN", "STRAIGHT", "ADAPTIVE"}
         Rule at irregular vertices; ADAPTIVE takes masks that fit the valence, whatever the frame.
-    n_levels : int
+    levels : int
         Number of levels, at least 1.
     boundary : {"ALONG", "FIXED", "FREE"}
         See `make_stencil`.
@@ -70,29 +70,32 @@ def make_transform(
     """
     blocks = blocks or Blocks(1)
     connectivity = connectivity or connect(surface, blocks)
+    frame = choose_frame(frame, connectivity) if isinstance(frame, str) else frame
     name = frame if isinstance(frame, str) else frame.name
     if isinstance(frame, str) and frame not in BANKS and frame not in FAMILIES:
         raise FrameError(f"The frame is {frame!r}; choose one of {', '.join([*BANKS, *FAMILIES])}.")
-    if n_levels < 1:
-        raise FrameError(f"The number of levels is {n_levels}; it must be at least 1.")
+    if levels < 1:
+        raise FrameError(f"The number of levels is {levels}; it must be at least 1.")
     if stencil == "ADAPTIVE" or name in FAMILIES:
         family = FAMILIES["PAIRWISE" if name == "PAIRWISE" else "ADAPTIVE"]
-        return _adaptive_transform(surface, family, n_levels, boundary, connectivity, blocks, np.dtype(dtype))
+        return _adaptive_transform(
+            surface, family, name, levels, boundary, connectivity, blocks, np.dtype(dtype)
+        )
     bank = BANKS[frame] if isinstance(frame, str) else frame
     check_fit(bank, connectivity)
     bands = bank.used_bands if only_used_bands else None
-    levels: list[LatticeLevel] = []
+    stages: list[LatticeLevel] = []
     low = surface
-    for index in range(n_levels):
+    for index in range(levels):
         chosen = make_stencil(low, connectivity, stencil, boundary, blocks, bank, index)
         level = LatticeLevel(chosen, bank, dtype, blocks, bands)
         if index:
             _check_reached(index, _is_reached(surface, connectivity, bank, index))
-        levels.append(level)
-        if index + 1 < n_levels:
+        stages.append(level)
+        if index + 1 < levels:
             points = np.ascontiguousarray(low.vertices.T, dtype)
             low = low.with_vertices(np.ascontiguousarray(level.forward(points, _ignore)[0].T))
-    return FrameTransform(tuple(levels), np.dtype(dtype))
+    return FrameTransform.of_levels(tuple(stages), dtype, bank.name)
 
 
 def choose_frame(frame: str, connectivity: Connectivity) -> str:
@@ -108,7 +111,8 @@ def choose_frame(frame: str, connectivity: Connectivity) -> str:
 def _adaptive_transform(
     surface: SurfaceMesh,
     family: type,
-    n_levels: int,
+    name: str,
+    levels: int,
     boundary: str,
     connectivity: Connectivity,
     blocks: Blocks,
@@ -120,24 +124,24 @@ def _adaptive_transform(
     one = np.ones(surface.n_vertices)
     low = surface
     neighbors: list[Neighbors] = []
-    for index in range(n_levels):
+    for index in range(levels):
         dilated = dilate(members, low.vertices, adjacency, index, 1, blocks)
         neighbors.append(ring_neighbors(dilated, boundary))
         _check_reached(index, not index or len(neighbors[-1].neighbor) > 0)
-        if index + 1 < n_levels:
+        if index + 1 < levels:
             level = AdaptiveLevel(neighbors[-1], family, one, dtype, blocks)
             points = np.ascontiguousarray(low.vertices.T, dtype)
             low = low.with_vertices(np.ascontiguousarray(level.low_pass(points).T))
     measure: NDArray[np.floating] = one
-    levels: list[AdaptiveLevel] = []
+    stages: list[AdaptiveLevel] = []
     del members, dilated, low
     while neighbors:
         give_back(surface.n_vertices)
         level = AdaptiveLevel(neighbors.pop(), family, measure, dtype, blocks)
-        levels.insert(0, level)
+        stages.insert(0, level)
         level.prepare()  # now, as later there is less memory left
         measure = level.measure
-    return FrameTransform(tuple(levels), dtype)
+    return FrameTransform.of_levels(tuple(stages), dtype, name)
 
 
 def _ignore(_: int, __: Chunk) -> None:

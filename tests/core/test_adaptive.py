@@ -123,7 +123,7 @@ def test_pairwise_differences_are_tight_for_any_weights(valence, rng):
 def test_measures_are_pulled_back(frame, n_levels, rng):
     """m_L = 1 and m_j(p) = sum of w_t m_{j+1}(k) over the stencils k that name p, over dilated rings."""
     mesh = noisy(union(flipped(triangle_torus(6, 7)), MESHES["mixed sheet"](), three_pages()), rng)
-    transform = make_transform(mesh, frame, n_levels=n_levels)
+    transform = make_transform(mesh, frame, levels=n_levels)
     twin = MeshTwin(mesh)
     near = neighbors_by(twin, 3)
     neighbors, low = [], mesh.vertices

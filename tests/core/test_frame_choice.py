@@ -125,7 +125,7 @@ faces = np.stack((grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]), -
 points = np.random.default_rng(0).normal(size=(36, 3))
 mesh = SurfaceMesh.from_faces(points, faces)
 assert BANKS["MINE"].n_bands == 9
-transform = make_transform(mesh, "MINE", n_levels=2)
+transform = make_transform(mesh, "MINE", levels=2)
 assert np.abs(transform.synthesize(transform.analyze(points)) - points).max() < 1e-12
 same = DenoiseSettings(method="POSITIONS", frame="LINEAR_SPLINE", levels=2)
 assert np.array_equal(denoise(mesh, same.with_changes(frame="MINE")).vertices, denoise(mesh, same).vertices)
@@ -183,15 +183,15 @@ def test_too_many_levels_are_refused_with_the_largest_number_that_works(frame):
     with pytest.raises(
         ValueError, match=r"^The mesh is too small for \d levels: nothing is \d+ edges apart; use"
     ) as error:
-        make_transform(mesh, frame, n_levels=6)
+        make_transform(mesh, frame, levels=6)
     text = str(error.value)
     assert text.endswith("or fewer.")
     works = int(text.split("use ")[1].split()[0])
-    make_transform(mesh, frame, n_levels=works)
+    make_transform(mesh, frame, levels=works)
     assert f"too small for {works + 1} levels: nothing is {2**works} edges apart" in text
     assert f"use {works} level{'s' if works > 1 else ''} or fewer." in text
     with pytest.raises(ValueError, match="too small"):
-        make_transform(mesh, frame, n_levels=works + 1)
+        make_transform(mesh, frame, levels=works + 1)
     with pytest.raises(ValueError, match="too small"):
         denoise(mesh, DenoiseSettings(method="POSITIONS", frame=frame, levels=works + 1))
 

@@ -93,7 +93,7 @@ def test_matches_the_matrices(frame, changes, n_levels, rng):
 def test_the_dense_adjoint_is_the_inverse_in_the_measures(n_levels, rng):
     """W* = m^-1 W' m' as matrices equals `synthesize`, so that (4.6) is solved in closed form."""
     mesh = noisy(BUILD["ADAPTIVE"](), rng)
-    transform = make_transform(mesh, "ADAPTIVE", n_levels=n_levels)
+    transform = make_transform(mesh, "ADAPTIVE", levels=n_levels)
     dense = dense_twin.DenseFrame(transform, mesh.n_vertices)
     measures = transform.measures()
     weights = [measures[-1]]
@@ -189,7 +189,7 @@ def test_chunks_do_not_change_a_result(frame, rng, monkeypatch):
 def test_edited_bands_come_back(frame, rng):
     """`details` and `with_details` are inverse to each other, and synthesis is linear in them."""
     mesh = sheet(rng)
-    transform = make_transform(mesh, frame, n_levels=2)
+    transform = make_transform(mesh, frame, levels=2)
     found = transform.analyze(mesh.vertices)
     details = [found.details(0), found.details(1)]
     again = found.with_details(details, found.low)

@@ -1,0 +1,249 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The functions for scripts. All take a mesh as arrays, vertices and faces, or as a `SurfaceMesh`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, overload
+
+import numpy as np
+from numpy.typing import ArrayLike, DTypeLike, NDArray
+
+from .arguments import as_mesh, as_settings
+from .blocks import Blocks
+from .denoise import denoise as _walk
+from .limits.region import Region
+from .mesh import geometry
+from .mesh.connectivity import Connectivity
+from .mesh.surface_mesh import SurfaceMesh
+from .methods.problem import Callback
+from .metrics import Comparison
+from .metrics import compare as _compare
+from .noise.estimate import NoiseEstimate
+from .noise.estimate import estimate_noise as _estimate
+from .noise.model import PAPER_SIGMA
+from .noise.model import add_noise as _add
+from .preparation_cache import PreparationCache
+from .prepared import Prepared
+from .report import DenoiseResult
+from .settings import DenoiseSettings
+
+
+@overload
+def denoise(
+    mesh: SurfaceMesh,
+    faces: DenoiseSettings | str | None = None,
+    *,
+    settings: DenoiseSettings | None = None,
+    preset: str | None = None,
+    movable: ArrayLike | None = None,
+    region: Region | None = None,
+    connectivity: Connectivity | None = None,
+    callback: Callback | None = None,
+    should_stop: Callable[[], bool] | None = None,
+    dtype: DTypeLike = np.float32,
+    prepared: Prepared | PreparationCache | None = None,
+    max_bytes: int | None = None,
+    **values: Any,
+) -> DenoiseResult: ...
+
+
+@overload
+def denoise(mesh: ArrayLike, faces: ArrayLike, **options: Any) -> Any: ...
+
+
+def denoise(
+    mesh: SurfaceMesh | ArrayLike,
+    faces: ArrayLike | DenoiseSettings | None = None,
+    *,
+    settings: DenoiseSettings | None = None,
+    preset: str | None = None,
+    offsets: ArrayLike | None = None,
+    movable: ArrayLike | None = None,
+    region: Region | None = None,
+    connectivity: Connectivity | None = None,
+    callback: Callback | None = None,
+    should_stop: Callable[[], bool] | None = None,
+    dtype: DTypeLike = np.float32,
+    prepared: Prepared | PreparationCache | None = None,
+    max_bytes: int | None = None,
+    full_output: bool | None = None,
+    **values: Any,
+) -> NDArray[np.floating] | DenoiseResult:
+    """Clean a noisy surface.
+
+    Parameters
+    ----------
+    mesh : array_like, shape (N, 3), or SurfaceMesh
+        Positions, or a mesh for those who use it again; not modified.
+    faces : array_like of int, shape (F, k), or list of lists
+        The vertices of each face. Beside a `SurfaceMesh`: settings, or the name of a preset.
+    settings : DenoiseSettings, optional
+        The method and its parameters; by default those of the preset AUTO.
+    preset : str, optional
+        Name of a preset, in any case, such as "auto", "scan" or "tri-2".
+    offsets : array_like of int, shape (F + 1,), optional
+        First corner of each face, and the number of corners: `faces` is then the flat list of all corners.
+    movable : array_like, shape (N,), bool, optional
+        Vertices that may move; all by default.
+    region, connectivity, callback, should_stop, dtype, prepared, max_bytes : optional
+        See `core.denoise.denoise`.
+    full_output : bool, optional
+        Whether to return positions and report; by default so for a `SurfaceMesh`.
+    **values
+        Fields of `DenoiseSettings`; choices in any case. The frame may be a `FilterBank` of your own.
+
+    Returns
+    -------
+    ndarray, shape (N, 3), or DenoiseResult
+        Positions in the dtype of the input, and with `full_output` the report.
+
+    Raises
+    ------
+    FrameletError
+        In one sentence: MeshError, SettingError, FrameError, RegionError or TooLargeError.
+
+    Examples
+    --------
+    >>> vertices = np.random.default_rng(0).normal(0, 0.02, (9, 9, 3))
+    >>> vertices[..., :2] += np.stack(np.meshgrid(range(9), range(9)), axis=-1)
+    >>> corner = np.arange(72).reshape(8, 9)[:, :8].ravel()
+    >>> faces = np.stack((corner, corner + 1, corner + 10, corner + 9), axis=1)
+    >>> denoise(vertices.reshape(-1, 3), faces).shape
+    (81, 3)
+    >>> denoise(vertices.reshape(-1, 3), faces, preset="quad-2", levels=2, full_output=True).report.iterations
+    10
+    """
+    is_arrays = not isinstance(mesh, SurfaceMesh)
+    if not is_arrays and isinstance(faces, DenoiseSettings | str):
+        given: Any = faces if settings is None else settings
+        surface = as_mesh(mesh, None, offsets)
+    else:
+        given = settings
+        surface = as_mesh(mesh, faces, offsets)  # type: ignore[arg-type]
+    result = _walk(
+        surface,
+        as_settings(given, preset, values),
+        movable=None if movable is None else np.asarray(movable),
+        region=region,
+        connectivity=connectivity,
+        callback=callback,
+        should_stop=should_stop,
+        dtype=dtype,
+        prepared=prepared,
+        max_bytes=max_bytes,
+    )
+    return result.vertices if (is_arrays and not full_output) or full_output is False else result
+
+
+def bilateral_filter(
+    mesh: SurfaceMesh | ArrayLike, faces: ArrayLike | None = None, **options: Any
+) -> NDArray[np.floating]:
+    """Return the positions, shape (N, 3), after the bilateral filter of Fleishman et al.
+
+    It is `denoise` with the preset BILATERAL; `options` are its settings `iterations`, `tolerance`,
+    `sigma_c`, `sigma_s`, `boundary` and `threads`, and what else `denoise` takes.
+
+    Examples
+    --------
+    >>> flat = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+    >>> bool(np.allclose(bilateral_filter(flat, [[0, 1, 2, 3]], iterations=2), flat))
+    True
+    """
+    surface = as_mesh(mesh, faces, options.pop("offsets", None))
+    return denoise(surface, preset="BILATERAL", **options).vertices
+
+
+def estimate_noise(
+    mesh: SurfaceMesh | ArrayLike,
+    faces: ArrayLike | None = None,
+    *,
+    offsets: ArrayLike | None = None,
+    connectivity: Connectivity | None = None,
+    threads: int = 1,
+) -> NoiseEstimate:
+    """Estimate the noise of a mesh from the mesh alone; see `core.noise.estimate.estimate_noise`.
+
+    Examples
+    --------
+    >>> flat = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+    >>> estimate_noise(flat, [[0, 1, 2, 3]]).sigma
+    0.0
+    """
+    with Blocks(threads) as blocks:
+        return _estimate(as_mesh(mesh, faces, offsets), connectivity, blocks)
+
+
+def add_noise(
+    mesh: SurfaceMesh | ArrayLike,
+    sigma: float = PAPER_SIGMA,
+    seed: int = 0,
+    *,
+    faces: ArrayLike | None = None,
+    offsets: ArrayLike | None = None,
+) -> NDArray[np.floating]:
+    """Return positions, shape (N, 3), with the paper's noise; see `core.noise.model.add_noise`.
+
+    Examples
+    --------
+    >>> flat = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+    >>> add_noise(flat, 0.1, seed=1, faces=[[0, 1, 2, 3]])[:, 2].round(3).tolist()
+    [0.035, 0.082, 0.033, -0.13]
+    """
+    return _add(as_mesh(mesh, faces, offsets), sigma, seed)
+
+
+def compare(
+    mesh: SurfaceMesh | ArrayLike,
+    reference: SurfaceMesh | ArrayLike,
+    faces: ArrayLike | None = None,
+    *,
+    offsets: ArrayLike | None = None,
+) -> Comparison:
+    """Compare a surface with a reference of the same faces; see `core.metrics.compare`.
+
+    Parameters
+    ----------
+    mesh, reference : SurfaceMesh, or array_like, shape (N, 3)
+        Two meshes with the same faces, or positions: beside a mesh those of its vertices.
+    faces, offsets : array_like, optional
+        The faces, if both are given by positions.
+
+    Examples
+    --------
+    >>> flat = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
+    >>> compare(flat + [0, 0, 0.5], flat, [[0, 1, 2, 3]]).rms_distance
+    0.5
+    """
+    if isinstance(mesh, SurfaceMesh):
+        other = reference if isinstance(reference, SurfaceMesh) else mesh.with_vertices(reference)
+        return _compare(as_mesh(mesh, faces, offsets), other)
+    known = as_mesh(reference, faces, offsets)
+    return _compare(known.with_vertices(mesh), known)
+
+
+def face_normals(
+    mesh: SurfaceMesh | ArrayLike, faces: ArrayLike | None = None, *, offsets: ArrayLike | None = None
+) -> NDArray[np.float64]:
+    """Return the unit normals of the faces, shape (F, 3); 0 for faces without area.
+
+    Examples
+    --------
+    >>> face_normals([[0, 0, 0], [1, 0, 0], [1, 1, 0]], [[0, 1, 2]]).tolist()
+    [[0.0, 0.0, 1.0]]
+    """
+    return geometry.face_normals(as_mesh(mesh, faces, offsets))
+
+
+def vertex_normals(
+    mesh: SurfaceMesh | ArrayLike, faces: ArrayLike | None = None, *, offsets: ArrayLike | None = None
+) -> NDArray[np.float64]:
+    """Return unit normals at the vertices, shape (N, 3): area-weighted means of the faces; 0 without a face.
+
+    Examples
+    --------
+    >>> vertex_normals([[0, 0, 0], [1, 0, 0], [1, 1, 0]], [[0, 1, 2]]).tolist()
+    [[0.0, 0.0, 1.0], [0.0, 0.0, 1.0], [0.0, 0.0, 1.0]]
+    """
+    return geometry.vertex_normals(as_mesh(mesh, faces, offsets))
