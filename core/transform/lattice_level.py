@@ -53,6 +53,8 @@ class LatticeLevel:
         Threads to work on.
     bands : ndarray of int, optional
         Bands to compute, the low-pass first; all by default.
+    is_dilated : bool
+        Whether the stencil was found across wider rings, as on coarser levels.
     """
 
     def __init__(
@@ -62,6 +64,7 @@ class LatticeLevel:
         dtype: DTypeLike,
         blocks: Blocks,
         bands: NDArray[np.intp] | None = None,
+        is_dilated: bool = False,
     ) -> None:
         if stencil.n_taps != bank.n_taps:
             raise FrameError(f"The stencil has {stencil.n_taps} taps, but {bank.name} has {bank.n_taps}.")
@@ -81,6 +84,7 @@ class LatticeLevel:
             and bank.is_tight
             and len(bands) == bank.n_bands
             and not stencil.is_irregular.any()
+            and not is_dilated  # on a curved surface dilated stencils are no shifts of each other
         )
         self._incidence = None if stencil.is_vertex_centered else _Incidence(stencil, len(self._rows), dtype)
 

@@ -88,7 +88,7 @@ def make_transform(
     low = surface
     for index in range(levels):
         chosen = make_stencil(low, connectivity, stencil, boundary, blocks, bank, index)
-        level = LatticeLevel(chosen, bank, dtype, blocks, bands)
+        level = LatticeLevel(chosen, bank, dtype, blocks, bands, is_dilated=index > 0)
         if index:
             _check_reached(index, _is_reached(surface, connectivity, bank, index))
         stages.append(level)

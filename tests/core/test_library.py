@@ -1,0 +1,241 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The functions for scripts: what goes in and out, settings by keywords, penalties of one's own."""
+
+import numpy as np
+import pytest
+from checks import assert_same_bits
+from framelet import core
+from framelet.core import (
+    PRESETS,
+    DenoiseSettings,
+    FilterBank,
+    FirmThreshold,
+    FrameletError,
+    FrameTransform,
+    HardThreshold,
+    MeshError,
+    Region,
+    RegionError,
+    SettingError,
+    SoftThreshold,
+    SurfaceMesh,
+    denoise,
+    split_bregman,
+)
+from framelet.core.frames import BANKS
+from framelet.core.methods.proximal import norms
+from meshes import faces_of, mixed_sheet, noisy, quad_torus, triangle_torus
+
+KINDS = ("BANDS", "VECTOR", "SCALAR")
+
+
+@pytest.mark.parametrize("make", [triangle_torus, quad_torus, mixed_sheet])
+def test_arrays_and_a_mesh_are_the_same_run(make, rng):
+    mesh = noisy(make(), rng)
+    faces = faces_of(mesh)
+    expected = denoise(SurfaceMesh.from_faces(mesh.vertices, faces))
+    for given, more in (
+        (faces, {}),
+        (np.concatenate(faces), {"offsets": np.cumsum([0, *map(len, faces)])}),
+    ):
+        found = denoise(mesh.vertices, given, **more)
+        assert isinstance(found, np.ndarray)
+        assert_same_bits(found, expected.vertices)
+        full = denoise(mesh.vertices.tolist(), given, full_output=True, dtype=np.float64, **more)
+        assert full.report.n_vertices == mesh.n_vertices and full.vertices.dtype == np.float64
+    assert_same_bits(denoise(mesh, full_output=False), denoise(mesh).vertices)
+
+
+def test_settings_by_name_preset_and_object_are_the_same_run(rng):
+    mesh = noisy(quad_torus(), rng)
+    settings = PRESETS["QUAD_2"].settings.with_changes(levels=2)
+    expected = denoise(mesh, settings).vertices
+    for result in (
+        denoise(mesh, preset="quad-2", levels=2),
+        denoise(mesh, "QUAD_2", levels=2),
+        denoise(mesh, settings=settings),
+        denoise(mesh, settings.with_changes(levels=1), levels=2),
+        denoise(mesh, method="positions", frame="linear-spline", lambda_=0.2, levels=2),
+        denoise(mesh, method="positions", frame=BANKS["LINEAR_SPLINE"], lambda_=0.2, levels=2),
+    ):
+        assert_same_bits(result.vertices, expected)
+
+
+def test_a_bank_of_ones_own_denoises(rng):
+    mesh = noisy(quad_torus(), rng)
+    haar = np.array([[1, 1, 1, 1], [1, -1, -1, 1], [1, 1, -1, -1], [1, -1, 1, -1]]) / 4
+    bank = FilterBank("MINE", "ANY", [(0, 0), (0, 1), (1, 1), (1, 0)], haar)
+    found = denoise(mesh, method="POSITIONS", frame=bank, max_bytes=10**9)
+    assert_same_bits(found.vertices, denoise(mesh, method="POSITIONS", frame="B_SPLINE_1").vertices)
+    tuned = denoise(mesh, method="POSITIONS", frame=bank, tuning="NOISE")
+    assert tuned.report.settings.lambda_ > 0
+
+
+@pytest.mark.parametrize(
+    ("call", "kind", "message"),
+    [
+        (lambda V, F: denoise(V), MeshError, "There are no faces; give vertices and faces"),
+        (lambda V, F: denoise(core.SurfaceMesh.from_faces(V, F), F), MeshError, "faces of its own"),
+        (lambda V, F: denoise(V, F, strenght=1), SettingError, "no setting strenght; choose from method,"),
+        (lambda V, F: denoise(V, F, levels=2), SettingError, "levels is 2, but the method AUTO does not"),
+        (
+            lambda V, F: denoise(V, F, preset="nice"),
+            SettingError,
+            "The preset is 'nice'; choose one of AUTO,",
+        ),
+        (lambda V, F: denoise(V, F, preset="auto", settings=DenoiseSettings()), SettingError, "one of them"),
+        (lambda V, F: denoise(V, F, method="magic"), SettingError, "Engine is 'MAGIC'; choose one of"),
+        (lambda V, F: denoise(V[:-1], F), MeshError, "names vertex"),
+        (lambda V, F: denoise(V, F, movable=[True]), RegionError, "mask of movable vertices"),
+        (lambda V, F: denoise(V, [0, 1, 2], offsets=[0, 2]), MeshError, "offsets must begin with 0"),
+        (lambda V, F: denoise(V, F, offsets=[0, 3]), MeshError, "beside offsets they must be a flat list"),
+        (lambda V, F: core.equalize(core.SurfaceMesh.from_faces(V, F), []), SettingError, "no gains"),
+    ],
+)
+def test_errors_are_of_types_that_can_be_caught(call, kind, message):
+    mesh = triangle_torus()
+    with pytest.raises(kind, match=message) as error:
+        call(mesh.vertices, np.array(faces_of(mesh)))
+    assert isinstance(error.value, FrameletError) and isinstance(error.value, ValueError)
+
+
+def test_weights_and_masks_are_anything_like_an_array(rng):
+    mesh = noisy(triangle_torus(), rng)
+    some = rng.random(mesh.n_vertices) < 0.5
+    expected = denoise(mesh, "TRI_2", movable=some).vertices
+    assert_same_bits(denoise(mesh, "TRI_2", movable=some.tolist()).vertices, expected)
+    for weights in (some, some.astype(int), some.tolist(), some.astype(np.float32)):
+        assert_same_bits(denoise(mesh, "TRI_2", region=Region(weights=weights)).vertices, expected)
+    gains = core.equalize(mesh, [0.5], weights=some.astype(float))
+    assert_same_bits(core.equalize(mesh, [0.5], weights=some.astype(int).tolist()), gains)
+
+
+def test_other_functions_take_arrays_and_meshes_alike(rng):
+    mesh = noisy(mixed_sheet(), rng)
+    V, F = mesh.vertices, faces_of(mesh)
+    mesh = SurfaceMesh.from_faces(V, F)
+    assert core.estimate_noise(V, F) == core.estimate_noise(mesh, threads=2)
+    assert_same_bits(core.add_noise(V, 0.1, 3, faces=F), core.add_noise(mesh, 0.1, 3))
+    assert_same_bits(core.face_normals(V, F), core.face_normals(mesh))
+    assert_same_bits(core.vertex_normals(V, F), core.vertex_normals(mesh))
+    moved = core.bilateral_filter(V, F, iterations=2)
+    assert_same_bits(moved, denoise(mesh, "BILATERAL", iterations=2).vertices)
+    by_meshes = core.compare(mesh.with_vertices(moved), mesh)
+    assert core.compare(moved, V, F) == core.compare(moved, mesh) == by_meshes
+    assert core.compare(mesh.with_vertices(moved), V) == by_meshes
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("mu", [0.5, 1.0, 3.0])
+def test_split_bregman_is_the_solver_of_the_paper(kind, mu, rng):
+    """On a mesh whose edges have the mean length 1 the units agree, too."""
+    mesh = triangle_torus()
+    mesh = noisy(mesh.with_vertices(mesh.vertices / core.compare(mesh, mesh).mean_edge_length), rng)
+    mesh = mesh.with_vertices(mesh.vertices / core.compare(mesh, mesh).mean_edge_length)
+    transform = FrameTransform(mesh)
+    found = split_bregman(mesh.vertices, transform, SoftThreshold(0.3, kind), mu=mu, delta=0.1, iterations=7)
+    settings = {"shrinkage": kind, "lambda_": 0.3, "mu": mu, "delta": 0.1, "iterations": 7}
+    expected = denoise(
+        mesh, method="POSITIONS", region=Region(repair_folds=False), dtype=np.float64, **settings
+    )
+    assert np.abs(found - expected.vertices).max() < 1e-9
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("make", [SoftThreshold, HardThreshold, lambda w, k: FirmThreshold(w, 3.0, k)])
+@pytest.mark.parametrize("step", [0.5, 1.0, 2.0])
+def test_proximal_operators_are_minima(make, kind, step, rng):
+    """Nothing around has a lower g(x) + |x - y|^2 / 2 step, nor has zero or y itself."""
+    prox = make(0.6, kind)
+    bands = rng.normal(size=(3, 4, 1))
+
+    def cost(x):
+        return prox.value(x) + ((x - bands) ** 2).sum() / (2.0 * step)
+
+    best = prox(bands, step)
+    assert (best != bands).any()
+    others = [
+        np.zeros_like(bands),
+        bands,
+        *(best + rng.normal(0, s, bands.shape) for s in (1e-3, 0.1, 1) * 50),
+    ]
+    for share in np.linspace(0, 1, 21):
+        others.append(bands * share)
+    assert all(cost(best) <= cost(other) + 1e-12 for other in others)
+
+
+def test_groups_of_bands_are_shrunk_as_one(rng):
+    """Cosine and sine of one frequency, as the frame ADAPTIVE has them."""
+    bands, groups = rng.normal(size=(3, 5, 2)), np.array([0, 1, 3])
+    length = norms(bands, "VECTOR", groups)
+    assert length.shape == (3, 2)
+    assert length[1] == pytest.approx(np.sqrt((bands[:, 1:3] ** 2).sum(axis=(0, 1))))
+    for prox in (SoftThreshold(1.2), HardThreshold(1.2), FirmThreshold(1.2, 3.0)):
+        left = bands - prox.removed(bands, 1.0, groups)
+        ratio = left / bands
+        assert np.ptp(ratio[:, 1:3], axis=(0, 1)) == pytest.approx(0.0, abs=1e-12)
+
+
+def test_the_objective_goes_down_and_the_callback_stops(rng):
+    mesh = noisy(quad_torus(), rng)
+    transform = FrameTransform(mesh, levels=2)
+    for penalty in (SoftThreshold(0.1), SoftThreshold(0.1, "bands"), FirmThreshold(0.05, 1.0)):
+        seen = []
+        clean = split_bregman(
+            mesh.vertices,
+            transform,
+            penalty,
+            iterations=40,
+            callback=lambda *now, seen=seen: seen.append(now),
+        )
+        iterations, iterates, objectives = zip(*seen, strict=True)
+        assert iterations == tuple(range(2, 41))
+        assert_same_bits(iterates[-1], clean)
+        assert objectives[-1] < objectives[0]
+        start = sum(
+            penalty.value(chunk)
+            for level, chunks in zip(transform.levels, transform.analyze(mesh.vertices).chunks, strict=True)
+            for chunk in chunks
+        )
+        assert objectives[-1] < start
+    stopped = split_bregman(mesh.vertices, transform, penalty, iterations=40, callback=lambda k, *_: k == 5)
+    assert_same_bits(stopped, iterates[3])
+
+
+def test_an_operator_of_ones_own_is_the_built_in_one(rng):
+    mesh = noisy(triangle_torus(), rng)
+    transform = FrameTransform(mesh)
+    soft, seen = SoftThreshold(0.05, "SCALAR"), []
+
+    def prox(bands, step):
+        return np.sign(bands) * np.maximum(np.abs(bands) - 0.05 * step, 0.0)
+
+    for penalty in (None, soft.value):
+        found = split_bregman(
+            mesh.vertices, transform, prox, penalty=penalty, mu=2.0, callback=lambda *now: seen.append(now[2])
+        )
+        expected = split_bregman(mesh.vertices, transform, soft, mu=2.0)
+        assert np.abs(found - expected).max() < 1e-12
+    assert np.isnan(seen[:9]).all() and np.isfinite(seen[9:]).all()
+
+
+def test_numbers_that_no_solver_takes_are_refused():
+    mesh = triangle_torus()
+    transform = FrameTransform(mesh)
+    for options in ({"mu": 0.0}, {"delta": 2.0}, {"iterations": 0}):
+        with pytest.raises(SettingError, match="they must be positive, from 0 to 1, and at least 1"):
+            split_bregman(mesh.vertices, transform, SoftThreshold(0.1), **options)
+    with pytest.raises(MeshError, match=r"the transform needs \(192, 3\)"):
+        split_bregman(mesh.vertices[1:], transform, SoftThreshold(0.1))
+    with pytest.raises(SettingError, match="The weight is -1"):
+        SoftThreshold(-1)
+    with pytest.raises(SettingError, match="The shrinkage is 'none'"):
+        HardThreshold(1, "none")
+    with pytest.raises(SettingError, match="larger than the weight over mu"):
+        split_bregman(mesh.vertices, transform, FirmThreshold(2.0, 1.0))
+
+
+def test_the_package_is_typed():
+    root = core.__path__[0]
+    assert (core.__spec__ is not None) and (__import__("pathlib").Path(root).parent / "py.typed").exists()
