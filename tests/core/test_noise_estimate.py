@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from checks import edge_length, random_rotation, read_only
 from framelet.core import SurfaceMesh, add_noise, connect, estimate_noise
-from framelet.core.blocks import Blocks
 from framelet.core.mesh.geometry import mean_edge_length, vertex_normals
 from framelet.core.noise.estimate import N_PATCHES
 from framelet.core.noise.fits import fit_heights
@@ -165,10 +164,9 @@ def test_far_away_in_float64():
 
 def test_inputs_stay_and_threads_do_not_matter():
     mesh = read_only(noisy(mixed_sheet(), 0.2))
-    assert estimate_noise(mesh) == estimate_noise(mesh, connect(mesh))
+    assert estimate_noise(mesh) == estimate_noise(mesh, connectivity=connect(mesh))
     mesh = noisy(triangle_torus(60, 80), 0.2)
-    with Blocks(3) as blocks:
-        assert estimate_noise(mesh, blocks=blocks) == estimate_noise(mesh)
+    assert estimate_noise(mesh, threads=3) == estimate_noise(mesh)
 
 
 def test_fits_and_their_slow_twin(rng):

@@ -235,14 +235,14 @@ def test_second_differences_vanish_inside_a_flat_regular_grid():
     ("changes", "message"),
     [
         ({"frame": "HAAR"}, "The frame is 'HAAR'; choose one of BOX_SPLINE_111, "),
-        ({"n_levels": 0}, "The number of levels is 0; it must be at least 1"),
+        ({"levels": 0}, "The number of levels is 0; it must be at least 1"),
         ({"stencil": "BEST"}, "The stencil rule is 'BEST'; choose one of MEAN, STRAIGHT"),
         (
-            {"n_levels": 9},
+            {"levels": 9},
             r"The mesh is too small for \d levels: nothing is \d+ edges apart; use \d levels? or fewer",
         ),
         (
-            {"n_levels": 9, "stencil": "ADAPTIVE"},
+            {"levels": 9, "stencil": "ADAPTIVE"},
             r"The mesh is too small for \d levels: nothing is \d+ edges apart",
         ),
         ({"frame": "LINEAR_SPLINE"}, "LINEAR_SPLINE is a frame for quads, but the mesh has none"),

@@ -106,7 +106,7 @@ def measure(name: str, n_seeds: int) -> list[Row]:
         for seed in range(n_seeds if level else 1):
             noisy = clean if not level else clean.with_vertices(KINDS_OF_NOISE[kind](clean, level, seed))
             start = perf_counter()
-            found = estimate_noise(noisy, connectivity)
+            found = estimate_noise(noisy, connectivity=connectivity)
             seconds = perf_counter() - start
             truth = level * np.sqrt(SHARE) if kind == "impulsive" else level
             estimate = (found.rms if kind == "impulsive" else found.sigma) / edge
