@@ -132,6 +132,8 @@ def _is_whole(values: dict[str, Any]) -> bool:
         return False
     if not all(isinstance(value, kinds.get(key, str)) for key, value in values.items()):
         return False
+    if values["frame"] == "AUTO":  # bands are those of one frame
+        return False
     try:
         DenoiseSettings(method="POSITIONS", **{name: values[name] for name in FRAME_NAMES})
     except ValueError:
