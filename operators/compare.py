@@ -45,7 +45,7 @@ def compare_objects(obj: bpy.types.Object, other: bpy.types.Object) -> "Comparis
 
     surfaces = [surface_in_scene(obj, mesh_bridge.read_surface(each)) for each in (obj, other)]
     try:
-        return compare(*surfaces)
+        return compare(surfaces[0], surfaces[1])
     except ValueError as error:
         raise ValueError(f"‘{obj.name}’ and ‘{other.name}’: {error}") from error
 
