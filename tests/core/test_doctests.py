@@ -11,7 +11,7 @@ import framelet.core as core
 import numpy as np
 import pytest
 
-PAGE = Path(core.__file__).resolve().parents[1] / "docs" / "for_researchers.md"
+PAGE = Path(core.__file__).resolve().parents[1] / "docs" / "scripts" / "library.md"
 MODULES = [item.name for item in pkgutil.walk_packages(core.__path__, "framelet.core.")]
 
 
