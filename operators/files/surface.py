@@ -1,0 +1,172 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A part of a file as the mesh that is worked on."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .mesh_file import MeshFile, Part
+
+if TYPE_CHECKING:
+    from ...core import SurfaceMesh
+
+
+def surface_of(file: MeshFile, part: Part) -> SurfaceMesh:
+    """Return the mesh of a part, in the precision of the file.
+
+    Parameters
+    ----------
+    file : MeshFile
+        What was read.
+    part : Part
+        One of its parts.
+
+    Returns
+    -------
+    SurfaceMesh
+        Vertex k is vertex `part.vertices[k]` of the file. Corners that repeat the one before, faces that are left
+        with less than three different vertices, name a vertex twice or come twice are left out: they say nothing
+        about the surface. The file keeps them.
+
+    Examples
+    --------
+    >>> from framelet.operators.files.obj import ObjFile
+    >>> file = ObjFile(b"v 0 0 0\\nv 1 0 0\\nv 0 1 0\\nf 1 2 3\\nf 2 3 1\\nf 1 1 2\\n", "triangle")
+    >>> surface = surface_of(file, file.parts()[0])
+    >>> surface.n_faces, surface.edges.tolist()
+    (1, [[0, 2], [0, 1], [1, 2]])
+    """
+    from ...core import SurfaceMesh
+
+    n = len(part.vertices)
+    is_whole = n == len(file.positions) and len(part.faces) == file.n_faces
+    offset, corner, loose = file.face_offset, file.corner_vertex, file.loose_edges
+    if not is_whole:
+        number = np.full(len(file.positions), -1, np.int64)
+        number[part.vertices] = np.arange(n)
+        sizes = np.diff(offset)
+        chosen = np.zeros(file.n_faces, bool)
+        chosen[part.faces] = True
+        corner = number[corner[np.repeat(chosen, sizes)]]
+        offset = np.concatenate(([0], np.cumsum(sizes[chosen])))
+        loose = number[loose]
+        loose = loose[(loose >= 0).all(axis=1)]
+    vertices = file.positions[part.vertices] if not is_whole else file.positions
+    corner, offset = _without_repeats(corner, offset)
+    corner, offset = _without_doubles(corner, offset)
+    corner_edge, edges = _number_edges(corner, offset, loose, n)
+    return SurfaceMesh(
+        np.ascontiguousarray(vertices, file.precision),
+        corner.astype(np.int32),
+        corner_edge.astype(np.int32),
+        offset.astype(np.int32),
+        edges.astype(np.int32),
+    )
+
+
+def _next_corner(offset: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return the next corner of the face of each corner."""
+    following = np.arange(1, int(offset[-1]) + 1)
+    filled = np.diff(offset) > 0
+    following[offset[1:][filled] - 1] = offset[:-1][filled]
+    return following
+
+
+def _without_repeats(
+    corner: NDArray[np.int64], offset: NDArray[np.int64]
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Leave out corners that repeat the one before, and faces that are no polygons then."""
+    sizes = np.diff(offset)
+    face = np.repeat(np.arange(len(sizes)), sizes)
+    stays = corner != corner[_next_corner(offset)]
+    left = np.bincount(face[stays], minlength=len(sizes)) if not stays.all() else sizes
+    is_kept = left >= 3
+    # A polygon that comes back to a vertex has fewer different ones than corners.
+    for size in np.unique(left[left > 3]).tolist():
+        faces = np.flatnonzero((left == size) & is_kept)
+        begin = np.cumsum(left) - left
+        rows = np.sort(corner[stays][begin[faces][:, None] + np.arange(size)], axis=1)
+        is_kept[faces[(np.diff(rows, axis=1) == 0).any(axis=1)]] = False
+    if stays.all() and is_kept.all():
+        return corner, offset
+    corner = corner[stays & is_kept[face]]
+    return corner, np.concatenate(([0], np.cumsum(left[is_kept])))
+
+
+def _without_doubles(
+    corner: NDArray[np.int64], offset: NDArray[np.int64]
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Leave out faces with the same vertices as one before."""
+    sizes = np.diff(offset)
+    is_kept = np.ones(len(sizes), bool)
+    for size in np.unique(sizes).tolist():
+        faces = np.flatnonzero(sizes == size)
+        rows = corner[offset[faces][:, None] + np.arange(size)]
+        # Faces that come twice have the same sums; few others have.
+        mixed = (rows.astype(np.uint64) * np.uint64(0x9E3779B97F4A7C15)) ** 2
+        key = mixed.sum(axis=1, dtype=np.uint64)
+        order = np.argsort(key)
+        is_same = key[order[1:]] == key[order[:-1]]
+        if not is_same.any():
+            continue
+        near = np.zeros(len(key), bool)
+        near[order[1:][is_same]] = near[order[:-1][is_same]] = True
+        doubtful = np.flatnonzero(near)
+        _, first = np.unique(np.sort(rows[doubtful], axis=1), axis=0, return_index=True)
+        is_first = np.zeros(len(doubtful), bool)
+        is_first[first] = True
+        is_kept[faces[doubtful[~is_first]]] = False
+    if is_kept.all():
+        return corner, offset
+    return corner[np.repeat(is_kept, sizes)], np.concatenate(([0], np.cumsum(sizes[is_kept])))
+
+
+def _number_edges(
+    corner: NDArray[np.int64], offset: NDArray[np.int64], loose: NDArray[np.int64], n_vertices: int
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return the edge of each corner, and the edges.
+
+    Edges are numbered as Blender numbers those of a small mesh, so that results have the same bits: by the first
+    corner before which they lie.
+    """
+    following = _next_corner(offset)
+    before = np.empty_like(following)
+    before[following] = np.arange(len(following))
+    low, high = np.minimum(corner, corner[before]), np.maximum(corner, corner[before])
+    key = low * n_vertices + high  # of the edge from the corner before
+    loose = np.sort(loose[loose[:, 0] != loose[:, 1]], axis=1)
+    key = np.concatenate((key, loose[:, 0] * n_vertices + loose[:, 1]))
+    if not len(key):
+        return np.zeros(0, np.int64), np.zeros((0, 2), np.int64)
+    order = np.argsort(key)
+    is_new = np.append(True, np.diff(key[order]) != 0)
+    group = np.empty(len(key), np.int64)
+    group[order] = np.cumsum(is_new) - 1
+    first = np.minimum.reduceat(order, np.flatnonzero(is_new))
+    is_first = np.zeros(len(key), bool)
+    is_first[first] = True
+    rank = np.cumsum(is_first) - 1
+    edge = rank[first][group]
+    edges = np.stack(np.divmod(key[is_first], n_vertices), axis=1)
+    return edge[: len(corner)][following], edges
+
+
+def border_is_split(surface: SurfaceMesh) -> bool:
+    """Return whether vertices of open borders lie at the same place, as at the seams of UVs.
+
+    Parameters
+    ----------
+    surface : SurfaceMesh
+        A mesh; places that are not finite count as different.
+    """
+    from .places import merge_equal
+
+    is_border = np.bincount(surface.corner_edge, minlength=surface.n_edges) == 1
+    vertices = np.unique(surface.edges[is_border])
+    points = surface.vertices[vertices]
+    points = points[np.isfinite(points).all(axis=1)]
+    return len(merge_equal(points)[1]) < len(points)
