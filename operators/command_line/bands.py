@@ -5,22 +5,27 @@
 from __future__ import annotations
 
 import argparse
+import io
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ...core.settings import DenoiseSettings
+from ..files.safe_write import Outputs, check_target
 from .arguments import HelpFormatter, add_frame_options, as_word
 from .band_arrays import LAYOUT, band_arrays
-from .file_types import check_source, file_type
-from .mesh_work import check_blender, count, describe_input, work_on_meshes
+from .file_types import WORDS, check_source, file_type, needs_blender
+from .file_work import open_source, surface_to_work_on
+from .mesh_work import count, work_on_each
 from .messages import USAGE_ERROR, CommandError, Messages
-from .staging import Staging, check_folder
+from .targets import publish
 from .version import framelet_version
 
 if TYPE_CHECKING:
-    import bpy
     from numpy.typing import NDArray
+
+    from ...core import SurfaceMesh
+    from ..files import Part
 
 FRAME_OPTIONS = ("frame", "stencil", "levels", "boundary")
 SUFFIX = ".npz"
@@ -32,15 +37,15 @@ def add_command(subparsers: argparse._SubParsersAction) -> None:
     parser = subparsers.add_parser(
         "bands",
         help="write the frame coefficients of the meshes of a file as arrays",
-        description="Split the surface in a PLY, OBJ or STL file, or all mesh objects in the scene of a "
-        ".blend file, into a low-pass and the bands of a tight wavelet frame; write these as NumPy arrays.",
+        description="Split the surfaces in a PLY, OBJ, STL, GLB or glTF file, or with Blender all mesh objects in "
+        "the scene of a .blend, .fbx, .usd or .abc file, into a low-pass and the bands of a tight wavelet frame; write these as NumPy arrays.",
         usage="%(prog)s IN --out BANDS.npz [options]",
         epilog=f"example: %(prog)s scan.ply --out bands.npz --frame adaptive --levels 3\n\n{LAYOUT}",
         formatter_class=HelpFormatter,
         allow_abbrev=False,
     )
     files = parser.add_argument_group("files")
-    files.add_argument("source", metavar="IN", type=Path, help="the file to read: .ply, .obj, .stl or .blend")
+    files.add_argument("source", metavar="IN", type=Path, help=f"the file to read: {WORDS}")
     files.add_argument(
         "--out",
         dest="target",
@@ -72,7 +77,7 @@ def run(arguments: argparse.Namespace) -> None:
 
     Raises
     ------
-    CommandError
+    CommandError or FileError
         If it cannot be carried out; no file is then written or changed.
     """
     source, target = arguments.source, arguments.target
@@ -83,55 +88,77 @@ def run(arguments: argparse.Namespace) -> None:
     if target.suffix.lower() != SUFFIX:
         raise CommandError(f"{target} is no {SUFFIX} file; bands are written as NumPy arrays.", USAGE_ERROR)
     check_source(source)
-    check_folder(target)
-    check_blender()
-    from .importing import opened
-
+    check_target(target)
     messages = Messages(arguments.quiet)
-    with Staging() as staging, opened(source, messages) as surfaces:
-        messages.say(describe_input(source, surfaces))
-        meshes = list(dict.fromkeys(obj.data for obj in surfaces.objects))
-        written: list[Path] = []
+    with Outputs() as outputs:
+        if needs_blender(source):
+            from .blender_process import run_in_blender
 
-        def work(obj: bpy.types.Object) -> None:
-            arrays = _analyze(obj, settings, arguments.max_size)
-            number = meshes.index(obj.data) + 1
-            path = target if len(meshes) == 1 else target.with_stem(f"{target.stem}-{number}")
-            check_folder(path)
-            _write(arrays, staging.path_for(path))
-            written.append(path)
-            messages.say(_describe(obj.name, arrays))
+            run_in_blender(
+                "bands",
+                source,
+                target,
+                outputs,
+                messages,
+                settings={name: getattr(settings, name) for name in FRAME_OPTIONS},
+                max_size=arguments.max_size,
+            )
+        else:
+            _analyze_file(arguments, settings, outputs, messages)
+        publish(outputs, [], messages)
 
-        work_on_meshes(source, surfaces, messages, work)
-        staging.publish()
-    messages.say(f"Wrote {', '.join(map(str, written))}.")
+
+def _analyze_file(
+    arguments: argparse.Namespace, settings: DenoiseSettings, outputs: Outputs, messages: Messages
+) -> None:
+    """Analyze each surface of a file that Blender is not needed for."""
+    opened = open_source(arguments.source, messages)
+    parts = opened.parts()
+
+    def work(item: tuple[int, Part]) -> None:
+        number, part = item
+        surface = surface_to_work_on(opened, part)
+        content, sentence = analyzed(part.name, surface, settings, arguments.max_size)
+        outputs.write(numbered(arguments.target, number, len(parts)), content)
+        messages.say(sentence)
+
+    items = [(name, (number, part)) for number, (name, part) in enumerate(parts, 1)]
+    work_on_each(arguments.source, items, messages, work)
 
 
-def _analyze(obj: bpy.types.Object, settings: DenoiseSettings, max_megabytes: float) -> dict[str, NDArray]:
-    """Return the arrays of an object's mesh."""
+def numbered(target: Path, number: int, n_surfaces: int) -> Path:
+    """Return the file for one of several surfaces.
+
+    Raises
+    ------
+    FileError
+        If it cannot be written.
+    """
+    path = target if n_surfaces == 1 else target.with_stem(f"{target.stem}-{number}")
+    check_target(path)
+    return path
+
+
+def analyzed(
+    name: str, surface: SurfaceMesh, settings: DenoiseSettings, max_megabytes: float
+) -> tuple[bytes, str]:
+    """Return the arrays of a mesh as a file, and a sentence about them.
+
+    Raises
+    ------
+    ValueError
+        With a sentence that begins with the name, if the mesh cannot be analyzed.
+    """
     import numpy as np
 
-    from ..mesh_io.mesh_bridge import read_surface, refusal
-
-    reason = refusal(obj)
-    if reason is not None:
-        raise ValueError(reason)
     try:
-        arrays = band_arrays(read_surface(obj), settings, max_megabytes)
+        arrays = band_arrays(surface, settings, max_megabytes)
     except ValueError as error:
-        raise ValueError(f"‘{obj.name}’: {error}") from error
-    return arrays | {"name": np.array(obj.name), "version": np.array(framelet_version())}
-
-
-def _write(arrays: dict[str, Any], path: Path) -> None:
-    """Write arrays into a file, whatever the case of its suffix."""
-    import numpy as np
-
-    try:
-        with path.open("wb") as file:
-            np.savez(file, **arrays)
-    except OSError as error:
-        raise CommandError(f"{path.name} could not be written: {error.strerror or error}.") from error
+        raise ValueError(f"‘{name}’: {error}") from error
+    arrays |= {"name": np.array(name), "version": np.array(framelet_version())}
+    file = io.BytesIO()
+    np.savez(file, **arrays)
+    return file.getvalue(), _describe(name, arrays)
 
 
 def _describe(name: str, arrays: dict[str, NDArray]) -> str:

@@ -5,34 +5,37 @@
 from __future__ import annotations
 
 import argparse
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ...core.region_options import RegionOptions
 from ...core.settings import DenoiseSettings
-from ..properties.output_choices import IN_PLACE, OUTPUTS
-from ..properties.region_options import RegionOptions
-from ..properties.scene_units import LEAST_WIDTH
+from ..files.safe_write import Outputs
+from ..output_choices import IN_PLACE, OUTPUTS
+from ..scene_units import LEAST_WIDTH
 from .arguments import (
     HelpFormatter,
     add_setting_options,
-    as_word,
     choice_list,
     choice_type,
     describe_choices,
     settings_from,
 )
-from .file_types import BLEND, check_source, file_type
-from .mesh_work import check_blender, count, describe_input, work_on_meshes
-from .messages import USAGE_ERROR, CommandError, Messages
+from .file_work import move, open_source, refuse_blender_options, region_of, write_target
+from .mesh_work import count, work_on_each
+from .messages import Messages
 from .region_arguments import add_region_options, region_options_from
-from .staging import Staging, check_folder
+from .report_file import Report
+from .targets import add_target_arguments, check_files, publish, target_of
 
 if TYPE_CHECKING:
-    import bpy
+    import numpy as np
+    from numpy.typing import NDArray
 
-    from ...core import NoiseBelief, NoiseEstimate
-    from ...core.report import DenoiseReport
-    from .importing import Surfaces
+    from ...core import NoiseBelief, NoiseEstimate, SurfaceMesh
+    from ...core.denoising.report import DenoiseReport
+    from ..files import Part
     from .mesh_work import Outcome
 
 
@@ -41,8 +44,9 @@ def add_command(subparsers: argparse._SubParsersAction) -> None:
     parser = subparsers.add_parser(
         "denoise",
         help="denoise the meshes of a file",
-        description="Denoise the surface in a PLY, OBJ or STL file, or all mesh objects in the scene of a "
-        ".blend file. Vertices move; their number and order, faces, UVs and colors stay.",
+        description="Denoise the surfaces in a PLY, OBJ, STL, GLB or glTF file: OUT is a copy of IN in which only "
+        "coordinates differ. With Blender, .blend, .fbx, .usd and .abc files can be denoised, too: all mesh "
+        "objects in their scene.",
         usage="%(prog)s IN OUT [options]",
         epilog="example: %(prog)s scan.ply clean.ply --report clean.json\n"
         "example: %(prog)s scan.ply clean.ply --preset tri-1 --lambda 0.4",
@@ -50,13 +54,7 @@ def add_command(subparsers: argparse._SubParsersAction) -> None:
         allow_abbrev=False,
     )
     files = parser.add_argument_group("files")
-    files.add_argument("source", metavar="IN", type=Path, help="the file to read: .ply, .obj, .stl or .blend")
-    files.add_argument(
-        "target",
-        metavar="OUT",
-        type=Path,
-        help="the file to write, of any of these types; one that exists is replaced once all went well",
-    )
+    add_target_arguments(files)
     files.add_argument(
         "--report", metavar="FILE.json", type=Path, help="write settings and measurements here"
     )
@@ -85,78 +83,76 @@ def run(arguments: argparse.Namespace) -> None:
 
     Raises
     ------
-    CommandError
-        If it cannot be carried out; no file is then written or changed.
+    CommandError or FileError
+        If it cannot be carried out; no file is then written or changed, except for the report, which says why.
     """
-    source, target, report = arguments.source, arguments.target, arguments.report
+    source, target = arguments.source, target_of(arguments)
     settings, options = settings_from(arguments), region_options_from(arguments)
-    _check_files(source, target, report)
-    output = arguments.output
-    if output != IN_PLACE and file_type(target) != BLEND:
-        raise CommandError(
-            f"--output {as_word(output)} needs a .blend file as OUT, but {target} is none.", USAGE_ERROR
-        )
-    check_blender()
-    from .exporting import export
-    from .importing import opened
-    from .report_file import write_report
+    report = Report(arguments.report, source, target, arguments.preset, settings, options)
+    with report.of_failure():
+        report.check()
+        refuse_blender_options(arguments.output, target)
+        is_for_blender = check_files(arguments, target)
+        messages = Messages(arguments.quiet)
+        with Outputs() as outputs:
+            if is_for_blender:
+                from .blender_process import run_in_blender
 
-    messages = Messages(arguments.quiet)
-    with Staging() as staging, opened(source, messages) as surfaces:
-        messages.say(describe_input(source, surfaces))
-        outcome = _denoise(source, surfaces, settings, options, output, messages)
-        export(surfaces.without(outcome.refused_objects), target, staging, messages)
-        if report is not None:
-            write_report(
-                staging.path_for(report),
-                source=source,
-                target=target,
-                preset=arguments.preset,
-                settings=settings,
-                options=options,
-                reports=[(obj.name, found) for obj, found in outcome.done],
-                skipped=[(obj.name, reason) for obj, reason in outcome.refusals],
-            )
-        staging.publish()
-    messages.say(f"Wrote {target}" + (f" and {report}." if report is not None else "."))
-
-
-def _check_files(source: Path, target: Path, report: Path | None) -> None:
-    """Raise CommandError for everything that can be wrong about the files before they are opened."""
-    file_type(source)
-    file_type(target)
-    if report is not None and report.resolve() in (source.resolve(), target.resolve()):
-        raise CommandError(f"The report cannot be {report}, which is a mesh file here.", USAGE_ERROR)
-    if report is not None and report.suffix.lower() != ".json":
-        raise CommandError(f"The report cannot be {report}; its name must end in .json.", USAGE_ERROR)
-    check_source(source)
-    check_folder(target)
-    if report is not None:
-        check_folder(report)
+                found = run_in_blender(
+                    "denoise",
+                    source,
+                    target,
+                    outputs,
+                    messages,
+                    settings=asdict(settings),
+                    options=asdict(options),
+                    output=arguments.output,
+                )
+                report.add_entries(found["entries"], found["skipped"], found["blender"])
+            else:
+                outcome = _denoise(arguments, target, settings, options, outputs, messages)
+                report.add(outcome)
+            kept = outputs.keep_backups() if arguments.backup else []
+            report.write(outputs)
+            publish(outputs, kept, messages)
 
 
 def _denoise(
-    source: Path,
-    surfaces: Surfaces,
+    arguments: argparse.Namespace,
+    target: Path,
     settings: DenoiseSettings,
     options: RegionOptions,
-    output: str,
+    outputs: Outputs,
     messages: Messages,
 ) -> Outcome:
-    """Denoise each mesh and say what was done."""
-    from ..run.denoise_object import denoise_object
+    """Denoise each surface of a file that Blender is not needed for, and write the result."""
+    opened = open_source(arguments.source, messages)
+    if options.keep_sharp:
+        messages.warn(f"--keep-sharp has no effect: {arguments.source} marks no edges as sharp.")
 
-    def work(obj: bpy.types.Object) -> DenoiseReport:
-        with messages.progress(f"Denoising {obj.name}") as callback:
-            report = denoise_object(obj, settings, callback, output, options)
-        for line in _describe_result(obj.name, report):
+    def work(part: Part) -> DenoiseReport:
+        from ...core import denoise
+
+        reports: list[DenoiseReport] = []
+
+        def solve(surface: SurfaceMesh) -> NDArray[np.floating]:
+            movable, region = region_of(opened, part, surface, options)
+            with messages.progress(f"Denoising {part.name}") as callback:
+                result = denoise(surface, settings, movable=movable, region=region, callback=callback)
+            reports.append(result.report)
+            return result.vertices
+
+        move(opened, part, solve)
+        for line in describe_result(part.name, reports[0]):
             messages.say(line)
-        return report
+        return reports[0]
 
-    return work_on_meshes(source, surfaces, messages, work)
+    outcome = work_on_each(arguments.source, opened.parts(), messages, work)
+    write_target(opened, target, outputs, messages)
+    return outcome
 
 
-def _describe_result(name: str, report: DenoiseReport) -> list[str]:
+def describe_result(name: str, report: DenoiseReport) -> list[str]:
     """Say what was done to an object."""
     edge = report.mean_edge_length or 1.0
     lines = [] if report.noise is None else [_describe_noise(report, report.noise)]

@@ -6,18 +6,24 @@ from __future__ import annotations
 
 import argparse
 from dataclasses import fields
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ...core.settings import DenoiseSettings
+from ..files.safe_write import Outputs
 from .arguments import HelpFormatter, add_frame_options
-from .file_types import check_source, file_type
-from .mesh_work import check_blender, describe_input, work_on_meshes
+from .file_work import move, open_source, write_target
+from .mesh_work import work_on_each
 from .messages import Messages
-from .staging import Staging, check_folder
+from .targets import add_target_arguments, check_files, publish, target_of
 
 if TYPE_CHECKING:
-    import bpy
+    from pathlib import Path
+
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from ...core import SurfaceMesh
+    from ..files import Part
 
 FRAME_OPTIONS = ("frame", "stencil", "boundary")
 MOST_GAINS = next(
@@ -30,22 +36,15 @@ def add_command(subparsers: argparse._SubParsersAction) -> None:
     parser = subparsers.add_parser(
         "equalize",
         help="smooth or exaggerate the details of the meshes of a file, scale by scale",
-        description="Multiply the details of each scale by a gain, in a PLY, OBJ or STL file or in all mesh "
-        "objects in the scene of a .blend file. Vertices move; their number and order, faces, UVs and colors "
-        "stay.",
+        description="Multiply the details of each scale by a gain, in a PLY, OBJ, STL, GLB or glTF file: OUT is "
+        "a copy of IN in which only coordinates differ. With Blender, .blend, .fbx, .usd and .abc files can be "
+        "worked on, too: all mesh objects in their scene.",
         usage="%(prog)s IN OUT --gains G1,G2,... [options]",
         epilog="example: %(prog)s scan.ply bold.ply --gains 0.2,1,1.5",
         formatter_class=HelpFormatter,
         allow_abbrev=False,
     )
-    files = parser.add_argument_group("files")
-    files.add_argument("source", metavar="IN", type=Path, help="the file to read: .ply, .obj, .stl or .blend")
-    files.add_argument(
-        "target",
-        metavar="OUT",
-        type=Path,
-        help="the file to write, of any of these types; one that exists is replaced once all went well",
-    )
+    add_target_arguments(parser.add_argument_group("files"))
     parser.add_argument(
         "--gains",
         metavar="G1,G2,...",
@@ -69,32 +68,60 @@ def run(arguments: argparse.Namespace) -> None:
 
     Raises
     ------
-    CommandError
+    CommandError or FileError
         If it cannot be carried out; no file is then written or changed.
     """
-    source, target = arguments.source, arguments.target
+    target = target_of(arguments)
     options = {name: getattr(arguments, name) for name in FRAME_OPTIONS}
-    file_type(source)
-    file_type(target)
-    check_source(source)
-    check_folder(target)
-    check_blender()
-    from ..equalize import equalize_object
-    from .exporting import export
-    from .importing import opened
-
+    is_for_blender = check_files(arguments, target)
     messages = Messages(arguments.quiet)
+    with Outputs() as outputs:
+        if is_for_blender:
+            from .blender_process import run_in_blender
 
-    def work(obj: bpy.types.Object) -> None:
-        rms, maximum = equalize_object(obj, arguments.gains, **options)
-        messages.say(f"Equalized {obj.name}: vertices moved by {rms:.4g} rms and {maximum:.4g} at most.")
+            run_in_blender(
+                "equalize", arguments.source, target, outputs, messages, gains=arguments.gains, frame=options
+            )
+        else:
+            _equalize(arguments, target, options, outputs, messages)
+        publish(outputs, outputs.keep_backups() if arguments.backup else [], messages)
 
-    with Staging() as staging, opened(source, messages) as surfaces:
-        messages.say(describe_input(source, surfaces))
-        outcome = work_on_meshes(source, surfaces, messages, work)
-        export(surfaces.without(outcome.refused_objects), target, staging, messages)
-        staging.publish()
-    messages.say(f"Wrote {target}.")
+
+def _equalize(
+    arguments: argparse.Namespace, target: Path, options: dict[str, str], outputs: Outputs, messages: Messages
+) -> None:
+    """Equalize each surface of a file that Blender is not needed for, and write the result."""
+    opened = open_source(arguments.source, messages)
+
+    def work(part: Part) -> None:
+        from ...core import equalize
+
+        moved: list[tuple[float, float]] = []
+
+        def solve(surface: SurfaceMesh) -> NDArray[np.floating]:
+            vertices = equalize(surface, arguments.gains, **options)
+            moved.append(displacement(surface.vertices, vertices))
+            return vertices
+
+        move(opened, part, solve)
+        messages.say(describe_result(part.name, *moved[0]))
+
+    work_on_each(arguments.source, opened.parts(), messages, work)
+    write_target(opened, target, outputs, messages)
+
+
+def describe_result(name: str, rms: float, maximum: float) -> str:
+    """Say what was done to a surface."""
+    return f"Equalized {name}: vertices moved by {rms:.4g} rms and {maximum:.4g} at most."
+
+
+def displacement(before: NDArray[np.floating], after: NDArray[np.floating]) -> tuple[float, float]:
+    """Return how far vertices, shape (N, 3), moved: the root of the mean square, and the largest distance."""
+    import numpy as np
+
+    from ..scene_units import displacement_by
+
+    return displacement_by(np.eye(3), before, after)
 
 
 def _gains(text: str) -> list[float]:

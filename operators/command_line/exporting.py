@@ -1,36 +1,52 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Write mesh files and .blend files through Blender's own exporters."""
+"""Write files through Blender's own exporters."""
 
 from __future__ import annotations
 
-from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 
 import bpy
 
-from ..mesh_io.mesh_bridge import read_surface
-from . import obj_text, ply_attributes
-from .blender_output import captured_output
+from ..mesh_bridge import read_surface
 from .file_types import BLEND, file_type
-from .importing import AXES, Surfaces
-from .messages import CommandError, Messages
-from .private_scene import scene_showing
-from .staging import Staging
+from .importing import AXES, call, exists
+from .messages import Messages
+
+_SHOWN = "DAG_EVAL_VIEWPORT"
+_PLAIN = {"check_existing": False, "apply_modifiers": False}
+
+# The first that this version of Blender has is used.
+_EXPORTERS: dict[str, tuple[tuple[str, dict[str, Any]], ...]] = {
+    # With UVs the exporter would sort the vertices anew.
+    ".ply": (
+        ("wm.ply_export", {**AXES, "export_uv": False, "export_colors": "SRGB", "export_attributes": True}),
+    ),
+    ".obj": (("wm.obj_export", {**AXES, "export_eval_mode": _SHOWN, "path_mode": "ABSOLUTE"}),),
+    ".stl": (("wm.stl_export", {**AXES, "evaluation_mode": _SHOWN}),),
+    ".glb": (("export_scene.gltf", {"export_format": "GLB", "export_apply": False}),),
+    ".gltf": (("export_scene.gltf", {"export_format": "GLTF_SEPARATE", "export_apply": False}),),
+    ".fbx": (("export_scene.fbx", {"use_mesh_modifiers": False, "path_mode": "ABSOLUTE"}),),
+    ".abc": (("wm.alembic_export", {"as_background_job": False, "evaluation_mode": "VIEWPORT"}),),
+    ".usd": (("wm.usd_export", {"evaluation_mode": "VIEWPORT"}),),
+}
 
 
-def export(surfaces: Surfaces, target: Path, staging: Staging, messages: Messages) -> None:
-    """Write the objects into the staging area of a file.
+def export(
+    objects: list[bpy.types.Object], source: Path, target: Path, path: Path, messages: Messages
+) -> None:
+    """Write objects into a file.
 
     Parameters
     ----------
-    surfaces : Surfaces
-        What is written; modifiers are not applied.
-    target : Path
-        The file in the end; its suffix tells the format.
-    staging : Staging
-        Gives the place to write to.
+    objects : list of bpy.types.Object
+        What is written to formats that hold meshes only; a .blend file is saved as a whole. Modifiers are not
+        applied.
+    source : Path
+        Where they come from.
+    target, path : Path
+        The file in the end, and where it is to be written.
     messages : Messages
         Takes warnings about what the format cannot carry.
 
@@ -39,62 +55,19 @@ def export(surfaces: Surfaces, target: Path, staging: Staging, messages: Message
     CommandError
         If Blender reports an error.
     """
-    if file_type(target) == BLEND:
-        _save_blend(surfaces, target, staging)
+    kind = file_type(target)
+    if kind == BLEND:
+        call("wm.save_as_mainfile", path, copy=True, check_existing=False)
         return
-    path = staging.path_for(target)
-    for obj in surfaces.objects:
+    for obj in objects:
         _show_active_key(obj)
-    context = scene_showing(surfaces.objects) if surfaces.scene is None else nullcontext(surfaces.scene)
-    with context as scene:
-        kind = file_type(target)
-        if kind == ".ply":
-            _export_ply(surfaces, path, scene, messages)
-        elif kind == ".obj":
-            _export_obj(surfaces, path, scene)
-        else:
-            _call(bpy.ops.wm.stl_export, path, scene, evaluation_mode="DAG_EVAL_VIEWPORT", **AXES)
-
-
-def _export_ply(surfaces: Surfaces, path: Path, scene: bpy.types.Scene, messages: Messages) -> None:
-    """Write a PLY file with the vertices in their order."""
-    for obj in surfaces.objects:
-        ply_attributes.round_colors(obj.data)
-        if not ply_attributes.store_uv_by_vertex(obj.data):
-            messages.warn(
-                f"The UV map of ‘{obj.name}’ has seams, which a PLY file cannot hold without more vertices; "
-                "it was left out."
-            )
-    _call(
-        bpy.ops.wm.ply_export,
-        path,
-        scene,
-        export_uv=False,  # would sort the vertices anew
-        export_normals=surfaces.has_normals and surfaces.scene is not None,
-        export_colors="SRGB",
-        export_attributes=True,
-        **AXES,
-    )
-
-
-def _export_obj(surfaces: Surfaces, path: Path, scene: bpy.types.Scene) -> None:
-    """Write an OBJ file with all digits, and a .mtl file if there are materials."""
-    meshes = [obj.data for obj in surfaces.objects]
-    _call(
-        bpy.ops.wm.obj_export,
-        path,
-        scene,
-        export_eval_mode="DAG_EVAL_VIEWPORT",
-        export_normals=surfaces.has_normals,
-        export_colors=any(mesh.color_attributes for mesh in meshes),
-        export_materials=any(any(mesh.materials) for mesh in meshes),
-        export_vertex_groups=surfaces.scene is not None
-        and any(obj.vertex_groups for obj in surfaces.objects),
-        path_mode="AUTO",
-        **AXES,
-    )
-    obj_text.write_all_digits(path, list(scene.objects))
-    obj_text.shorten_texture_paths(path.with_suffix(".mtl"), path.parent.parent)
+    if kind == ".ply" and any(obj.data.uv_layers for obj in objects):
+        messages.warn("A .ply file that Blender writes holds no UV maps here; they were left out.")
+    _show_only(objects)
+    for name, options in _EXPORTERS[".usd" if kind.startswith(".usd") else kind]:
+        if exists(name):
+            call(name, path, **{**_PLAIN, **options})
+            break
 
 
 def _show_active_key(obj: bpy.types.Object) -> None:
@@ -104,29 +77,15 @@ def _show_active_key(obj: bpy.types.Object) -> None:
         obj.data.attributes["position"].data.foreach_set("vector", positions.ravel())
 
 
-def _save_blend(surfaces: Surfaces, target: Path, staging: Staging) -> None:
-    """Save the opened .blend file as a copy, or a new one with the imported objects."""
-    path = staging.sibling_for(target)
-    if surfaces.scene is None:
-        _call(bpy.ops.wm.save_as_mainfile, path, None, copy=True)
-        return
-    try:
-        with captured_output():
-            bpy.data.libraries.write(str(path.absolute()), {surfaces.scene}, path_remap="RELATIVE")
-    except (OSError, RuntimeError) as error:
-        raise CommandError(f"{target} could not be written: {error}") from error
-
-
-def _call(operator: Any, path: Path, scene: bpy.types.Scene | None, **options: Any) -> None:
-    """Call an exporter in a scene, with those options that this version of Blender knows."""
-    context = {} if scene is None else {"scene": scene, "view_layer": scene.view_layers[0]}
-    wanted = {"check_existing": False, "apply_modifiers": False, **options}
-    known = {prop.identifier for prop in operator.get_rna_type().properties}
-    try:
-        with captured_output(), bpy.context.temp_override(**context):
-            operator(
-                filepath=str(path.absolute()), **{name: wanted[name] for name in wanted if name in known}
-            )
-    except RuntimeError as error:
-        reason = str(error).strip().splitlines()[0].removeprefix("Error: ").rstrip(".")
-        raise CommandError(f"{path.name} could not be written: Blender says ‘{reason}’.") from error
+def _show_only(objects: list[bpy.types.Object]) -> None:
+    """Leave these objects alone in the scene, and show them, since hidden ones are not exported."""
+    scene = bpy.data.scenes.new("Framelet")
+    for obj in objects:
+        obj.hide_viewport = obj.hide_render = False
+        scene.collection.objects.link(obj)
+    scene.view_layers[0].update()
+    if bpy.context.window is not None:
+        bpy.context.window.scene = scene
+    for other in bpy.data.scenes[:]:
+        if other != scene:
+            bpy.data.scenes.remove(other)

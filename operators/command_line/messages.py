@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
@@ -22,8 +23,27 @@ class CommandError(Exception):
 
 
 def complain(sentence: str) -> None:
-    """Print one line on stderr."""
-    print("framelet:", " ".join(sentence.split()), file=sys.stderr, flush=True)
+    """Print one line on stderr, if there is one that takes it."""
+    with suppress(OSError, ValueError):
+        print("framelet:", " ".join(sentence.split()), file=sys.stderr, flush=True)
+
+
+def unprinted() -> str | None:
+    """Return why what was said could not be printed; None if it was, or nobody reads it any more."""
+    if sys.stdout is None:
+        return None
+    try:
+        sys.stdout.flush()
+    except BrokenPipeError:
+        reason = None
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+    else:
+        return None
+    with suppress(OSError, ValueError, AttributeError):
+        # Python flushes once more as it ends, and would print a traceback.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    return reason
 
 
 class Messages:
@@ -42,8 +62,9 @@ class Messages:
     def say(self, line: str) -> None:
         """Print a line on stdout."""
         if not self.is_quiet:
-            # A reader that has gone away, as `head` does, is no reason to give up the work.
-            with suppress(BrokenPipeError):
+            # A reader that has gone away, as `head` does, and a full disk are no reasons to give up the work;
+            # the latter is told in the end.
+            with suppress(OSError, ValueError):
                 print(line, flush=True)
 
     def warn(self, sentence: str) -> None:
@@ -51,17 +72,22 @@ class Messages:
         if not self.is_quiet:
             complain(f"warning: {sentence}")
 
+    def show(self, what: str, fraction: float) -> None:
+        """Show a percentage, if there is a terminal to show it on; 1 clears the line."""
+        if self._shows_progress:
+            line = f"\r{what}: {fraction:4.0%}" if fraction < 1.0 else "\r\x1b[K"
+            with suppress(OSError, ValueError):
+                print(line, end="", file=sys.stderr, flush=True)
+
     @contextmanager
     def progress(self, what: str) -> Iterator[Callable[[float, float], bool]]:
-        """Give a solver callback that shows a percentage, if there is a terminal to show it on."""
+        """Give a solver callback that shows a percentage."""
 
         def show(fraction: float, change: float) -> bool:
-            if self._shows_progress:
-                print(f"\r{what}: {fraction:4.0%}", end="", file=sys.stderr, flush=True)
+            self.show(what, min(fraction, 0.99))
             return False
 
         try:
             yield show
         finally:
-            if self._shows_progress:
-                print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+            self.show(what, 1.0)

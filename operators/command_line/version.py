@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The versions of Framelet and of Blender, for people and for reports."""
+"""The version of Framelet, for people and for reports."""
 
 from __future__ import annotations
 
@@ -15,10 +15,3 @@ def framelet_version() -> str:
     """Return the version in the manifest."""
     with _MANIFEST.open("rb") as file:
         return tomllib.load(file)["version"]
-
-
-def blender_version() -> str:
-    """Return the version of the running Blender, without the words that may follow the numbers."""
-    import bpy
-
-    return bpy.app.version_string.split()[0]

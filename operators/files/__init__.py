@@ -11,5 +11,4 @@ from __future__ import annotations
 from .formats import PATCHED_TYPES, open_file
 from .mesh_file import FileError, MeshFile, Part
 
-
 __all__ = ["PATCHED_TYPES", "FileError", "MeshFile", "Part", "open_file"]

@@ -85,6 +85,8 @@ class MeshFile(ABC):
     loose_edges: NDArray[np.int64]
     precision: np.dtype
     always_welded: bool = False
+    has_normals: bool = False
+    """Whether the file holds normals that `patched` leaves alone."""
 
     def __init__(self, name: str) -> None:
         self.name = name
@@ -144,6 +146,10 @@ class MeshFile(ABC):
     def references(self) -> list[str]:
         """Return the relative paths of the files that this file refers to and that stay as they are."""
         return []
+
+    def has_stale_normals(self, positions: NDArray[np.floating]) -> bool:
+        """Return whether the file keeps normals of a surface that is elsewhere now."""
+        return self.has_normals and bool(self.moved(positions).any())
 
     def moved(self, positions: NDArray[np.floating]) -> NDArray[np.bool_]:
         """Return which vertices are elsewhere than before, shape (N,), as far as the file can tell."""

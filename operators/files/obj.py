@@ -92,6 +92,7 @@ class ObjFile(MeshFile):
         for keyword, words in _EXTRAS.items():
             if self._data.startswith(keyword + b" ") or b"\n" + keyword + b" " in self._data:
                 self.extras.append(words)
+        self.has_normals = "normals" in self.extras
         if self._groups:
             self.extras.append("groups")
         if self._objects:

@@ -192,7 +192,8 @@ class PlyFile(MeshFile):
                 self.extras += [f"property {name} of the {element.name} elements" for name in extra]
             elif element.count:
                 self.extras.append(f"elements {element.name}")
-        self.has_normals = elements[0].index("nx") >= 0 if elements else False
+        vertex = next(element for element in elements if element.name == "vertex")
+        self.has_normals = vertex.index("nx") >= 0
 
     def patched(self, positions: NDArray[np.floating]) -> bytes:
         """See `MeshFile.patched`."""

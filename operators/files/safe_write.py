@@ -21,7 +21,7 @@ from typing import Any, NamedTuple
 from .mesh_file import FileError
 
 PREFIX = ".framelet-"
-_LEFT_OVER = re.compile(re.escape(PREFIX) + r"(?P<host>[0-9A-Za-z.-]+)_(?P<pid>\d+)_[0-9a-f]+")
+_LEFT_OVER = re.compile(re.escape(PREFIX) + r"(?P<host>[0-9A-Za-z.-]+)_(?P<pid>\d+)_[0-9a-f]+(\.\w+)?")
 _CHUNK = 2**22
 _LEAST_ROOM = 2**16  # bytes; a disk with less is full
 
@@ -96,7 +96,11 @@ def remove_leftovers(folder: Path) -> None:
         return
     for path, match in found:
         if match and match["host"] == _host() and not _is_alive(int(match["pid"])):
-            shutil.rmtree(path, ignore_errors=True)
+            if path.is_dir() and not path.is_symlink():
+                shutil.rmtree(path, ignore_errors=True)
+            else:
+                with suppress(OSError):
+                    path.unlink()
 
 
 class Outputs:
@@ -119,6 +123,7 @@ class Outputs:
 
     def __init__(self) -> None:
         self._folders: list[Path] = []
+        self._siblings: list[Path] = []
         self._moves: list[_Move] = []
         self._backups: list[tuple[Path, Path]] = []
         self._direct: list[tuple[Path, bytes]] = []
@@ -150,7 +155,7 @@ class Outputs:
         """Return where another program is to write a file; see `check_written`."""
         place = _place(target)
         remove_leftovers(place.parent)
-        folder = place.parent / f"{PREFIX}{_host()}_{os.getpid()}_{secrets.token_hex(4)}"
+        folder = place.with_name(_unique_name())
         try:
             folder.mkdir(mode=0o700)
         except OSError as error:
@@ -159,19 +164,43 @@ class Outputs:
         self._moves.append(_Move(folder / place.name, place, target))
         return folder / place.name
 
-    def beside(self, path: Path) -> list[Path]:
-        """Return what another program wrote beside a file that `path_for` gave, and take it along.
+    def sibling_for(self, target: Path) -> Path:
+        """Return where another program is to write a file that holds paths relative to its own folder."""
+        place = _place(target)
+        remove_leftovers(place.parent)
+        path = place.with_name(_unique_name() + place.suffix)
+        self._siblings.append(path)
+        self._moves.append(_Move(path, place, target))
+        return path
 
-        Each goes to the folder of the target, under its name.
+    def forget(self, path: Path) -> None:
+        """Take back a file that `path_for` gave and that was not needed."""
+        self._moves = [move for move in self._moves if move.source != path]
+
+    def take(self, source: Path, target: Path) -> None:
+        """Take a file that another program wrote, for another target."""
+        self._moves.append(_Move(source, _place(target), target))
+
+    def take_siblings(self, path: Path) -> None:
+        """Take along what another program wrote beside a file that `path_for` gave.
+
+        Raises
+        ------
+        FileError
+            If one of them would overwrite a file.
         """
-        move = next(move for move in self._moves if move.source == path)
-        others = sorted(other for other in path.parent.iterdir() if other != path)
-        new = [
-            _Move(other, move.place.parent / other.name, move.target.parent / other.name) for other in others
-        ]
-        at = self._moves.index(move)
-        self._moves[at:at] = new
-        return [each.target for each in new]
+        known = {move.source for move in self._moves}
+        target = next((move.target for move in self._moves if move.source == path), None)
+        if target is None:
+            return
+        for other in sorted(each for each in path.parent.rglob("*") if each.is_file() and each not in known):
+            place = target.parent / other.relative_to(path.parent)
+            if place.exists() and not target.exists():
+                raise FileError(
+                    f"{place} would be overwritten; move it away, or choose another name for {target}."
+                )
+            place.parent.mkdir(parents=True, exist_ok=True)
+            self._moves.insert(0, _Move(other, _place(place), place))
 
     def check_written(self) -> None:
         """Raise FileError if a file is missing or empty, or the disk is full, after another program wrote."""
@@ -186,15 +215,17 @@ class Outputs:
             if not size or room < _LEAST_ROOM:
                 raise FileError(f"{move.target} could not be written: the disk is full.")
 
-    def keep_backup(self, target: Path) -> Path:
-        """Keep what is replaced under a name that is free, and return that name."""
-        place = _place(target)
-        backup, number = place.with_name(place.name + ".bak"), 1
-        while os.path.lexists(backup):
-            number += 1
-            backup = place.with_name(f"{place.name}.bak{number}")
-        self._backups.append((place, backup))
-        return backup
+    def keep_backups(self) -> list[Path]:
+        """Keep all files that are replaced under names that are free, and return these names."""
+        for move in self._moves:
+            if not move.place.exists():
+                continue
+            backup, number = move.place.with_name(move.place.name + ".bak"), 1
+            while os.path.lexists(backup):
+                number += 1
+                backup = move.place.with_name(f"{move.place.name}.bak{number}")
+            self._backups.append((move.place, backup))
+        return [backup for _place, backup in self._backups]
 
     def publish(self) -> list[Path]:
         """Move all files into place, in the order in which they were named.
@@ -255,6 +286,9 @@ class Outputs:
         with _deferred_signals():
             for folder in self._folders:
                 shutil.rmtree(folder, ignore_errors=True)
+            for path in self._siblings:
+                with suppress(OSError):
+                    path.unlink(missing_ok=True)
 
 
 @contextmanager
@@ -313,6 +347,11 @@ def _place(target: Path) -> Path:
 def _host() -> str:
     """Return the name of this computer, as far as it can be part of a file name."""
     return re.sub(r"[^0-9A-Za-z.-]", "-", socket.gethostname())[:40] or "computer"
+
+
+def _unique_name() -> str:
+    """Return a name that tells which process it belongs to."""
+    return f"{PREFIX}{_host()}_{os.getpid()}_{secrets.token_hex(4)}"
 
 
 def _is_alive(pid: int) -> bool:

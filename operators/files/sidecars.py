@@ -1,0 +1,137 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Files that a mesh file refers to: materials, textures, buffers. They are kept, copied, never overwritten."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING
+from urllib.parse import quote, unquote
+
+from .gltf import GltfFile
+from .mesh_file import FileError, MeshFile
+from .safe_write import Outputs
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+_MAP_WORDS = ("map_", "bump", "disp", "decal", "norm", "refl")
+
+
+def write_sidecars(
+    file: MeshFile, positions: NDArray[np.floating], source: Path, target: Path, outputs: Outputs
+) -> list[str]:
+    """Write what belongs to a file beside its copy.
+
+    Parameters
+    ----------
+    file : MeshFile
+        What was read; buffers that hold coordinates get new names in it where theirs are taken.
+    positions : ndarray, shape (N, 3)
+        Where the vertices are now.
+    source, target : Path
+        The file that was read and the one that is written.
+    outputs : Outputs
+        Takes the files.
+
+    Returns
+    -------
+    list of str
+        Sentences about what could not be copied.
+
+    Raises
+    ------
+    FileError
+        If a buffer would overwrite a file that does not belong to the target.
+    """
+    warnings = []
+    buffers = file.side_files(positions)
+    if isinstance(file, GltfFile) and buffers:
+        file.renames = _new_names(list(buffers), source, target)
+        for uri, content in buffers.items():
+            outputs.write(target.parent / unquote(file.renames[uri]), content)
+    if _same_folder(source, target):
+        return warnings
+    names = list(dict.fromkeys(file.references()))
+    for name in list(names):
+        if name.lower().endswith(".mtl"):
+            folder = Path(name).parent
+            names += [str(folder / texture) for texture in _textures(source.parent / name)]
+    for name in dict.fromkeys(names):
+        warnings += _copy(name, source, target, outputs)
+    return warnings
+
+
+def _new_names(uris: list[str], source: Path, target: Path) -> dict[str, str]:
+    """Return the names of buffers beside the target: their own, or else that of the target."""
+    names = {}
+    for number, uri in enumerate(uris, 1):
+        place = target.parent / unquote(uri)
+        own = target.stem if len(uris) == 1 else f"{target.stem}-{number}"
+        if _belongs(place, source, target, uri) or (place.parent.is_dir() and not place.exists()):
+            names[uri] = uri
+            continue
+        new = quote(own + (Path(unquote(uri)).suffix or ".bin"))
+        place = target.parent / unquote(new)
+        if place.exists() and not _belongs(place, source, target, new):
+            raise FileError(
+                f"{place} would be overwritten; move it away, or choose another name for {target}."
+            )
+        names[uri] = new
+    return names
+
+
+def _belongs(place: Path, source: Path, target: Path, uri: str) -> bool:
+    """Return whether a file at a place is the buffer of the file that is replaced, and of that alone."""
+    try:
+        if not place.exists() or f'"{uri}"'.encode() not in target.read_bytes():
+            return False
+        is_read = (source.parent / unquote(uri)).exists() and place.samefile(source.parent / unquote(uri))
+        return not is_read or source.samefile(target)
+    except OSError:
+        return False
+
+
+def _copy(name: str, source: Path, target: Path, outputs: Outputs) -> list[str]:
+    """Copy a file that is referred to by a relative path; return what is to be said."""
+    path = Path(name.replace("\\", "/"))
+    if path.is_absolute() or ".." in path.parts or not name:
+        return [] if path.is_absolute() else [f"{target} refers to {name}, which was not copied."]
+    old, new = source.parent / path, target.parent / path
+    try:
+        content = old.read_bytes() if old.is_file() else None
+        if content is None:
+            return []  # as before: the reference leads nowhere
+        if new.exists():
+            same = new.is_file() and new.stat().st_size == len(content) and new.read_bytes() == content
+            return [] if same else [f"{new} is another file than {old} and was left alone."]
+        new.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        return [f"{old} could not be copied: {error.strerror or error}."]
+    outputs.write(new, content)
+    return []
+
+
+def _textures(path: Path) -> list[str]:
+    """Return the textures that a material file names."""
+    try:
+        lines = path.read_text("utf-8", "surrogateescape").splitlines()
+    except OSError:
+        return []
+    found = []
+    for line in lines:
+        keyword, _space, rest = line.strip().partition(" ")
+        rest = rest.strip()
+        if not keyword.lower().startswith(_MAP_WORDS) or not rest:
+            continue
+        # Options come first; a name may have spaces.
+        words = rest.split(" ")
+        candidates = [" ".join(words[at:]) for at in range(len(words))]
+        found += [name for name in candidates if (path.parent / name.replace("\\", "/")).is_file()][:1]
+    return found
+
+
+def _same_folder(source: Path, target: Path) -> bool:
+    return os.path.realpath(source.parent) == os.path.realpath(target.parent)
