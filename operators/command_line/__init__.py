@@ -3,8 +3,8 @@
 """The command line: `framelet denoise IN OUT` and `blender -c framelet denoise IN OUT`.
 
 Each subcommand is one module with `add_command(subparsers)`; see `parser.COMMANDS`. Mesh files are read and
-written by `operators.files`, which needs NumPy only; what Blender alone can read is worked on in a Blender of its
-own, see `blender_process`. Nothing here imports Blender.
+written by `operators.files`, which needs NumPy only; what Blender alone can read is worked on in a Blender of
+its own, see `blender_process`. Nothing here imports Blender.
 """
 
 from __future__ import annotations
@@ -26,10 +26,10 @@ def main(argv: Sequence[str] | None = None, program: str = "framelet") -> int:
     Returns
     -------
     int
-        Exit code: 0 if all went well, 2 for arguments that are not understood, 128 and the number of the signal
-        that ended the run, 1 for everything else.
+        Exit code: 0 if all went well, 2 for arguments that are not understood, 128 and the number of the
+        signal that ended the run, 1 for everything else.
     """
-    from ..files.safe_write import signals_as_interrupts
+    from ..files.signals import signals_as_interrupts
     from .messages import FAILURE, complain, unprinted
     from .parser import make_parser
 
@@ -57,7 +57,7 @@ def main(argv: Sequence[str] | None = None, program: str = "framelet") -> int:
 def explained(error: BaseException) -> tuple[str, int]:
     """Return why a run ended, in one sentence, and its exit code; raise what no user can be blamed for."""
     from ..files.mesh_file import FileError
-    from ..files.safe_write import Interrupted
+    from ..files.signals import Interrupted
     from .messages import FAILURE, INTERRUPTED, CommandError
 
     if isinstance(error, CommandError):

@@ -67,7 +67,7 @@ def carry_out(job: dict[str, Any]) -> int:
     except MemoryError:
         messages.tell("error", "There is not enough memory for this mesh; nothing was written.")
     except Exception as error:
-        # A file can be damaged in ways that no check of ours knows, and a user can do nothing with a traceback.
+        # A file can be damaged in ways that no check of ours knows, and a traceback helps no user.
         reason = f"{type(error).__name__}: {' '.join(str(error).split())}"
         messages.tell("error", f"{job['source']} cannot be worked on ({reason}); the file may be damaged.")
     else:

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Work on files that only Blender can read, in a process of its own.
 
-Importers print past Python, may end the process, and leave behind what keeps it from ending; a process of its own
-takes all of that with it. It says what happens in marked lines, and writes into the outputs of the process that
-started it, which checks and publishes them.
+Importers print past Python, may end the process, and leave behind what keeps it from ending; a process of its
+own takes all of that with it. It says what happens in marked lines, and writes into the outputs of the
+process that started it, which checks and publishes them.
 """
 
 from __future__ import annotations

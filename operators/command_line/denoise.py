@@ -44,9 +44,9 @@ def add_command(subparsers: argparse._SubParsersAction) -> None:
     parser = subparsers.add_parser(
         "denoise",
         help="denoise the meshes of a file",
-        description="Denoise the surfaces in a PLY, OBJ, STL, GLB or glTF file: OUT is a copy of IN in which only "
-        "coordinates differ. With Blender, .blend, .fbx, .usd and .abc files can be denoised, too: all mesh "
-        "objects in their scene.",
+        description="Denoise the surfaces in a PLY, OBJ, STL, GLB or glTF file: OUT is a copy of IN in which "
+        "only coordinates differ. With Blender, .blend, .fbx, .usd and .abc files can be denoised, too: all "
+        "mesh objects in their scene.",
         usage="%(prog)s IN OUT [options]",
         epilog="example: %(prog)s scan.ply clean.ply --report clean.json\n"
         "example: %(prog)s scan.ply clean.ply --preset tri-1 --lambda 0.4",
@@ -84,7 +84,7 @@ def run(arguments: argparse.Namespace) -> None:
     Raises
     ------
     CommandError or FileError
-        If it cannot be carried out; no file is then written or changed, except for the report, which says why.
+        If it cannot be carried out; no file is then written or changed but the report, which says why.
     """
     source, target = arguments.source, target_of(arguments)
     settings, options = settings_from(arguments), region_options_from(arguments)

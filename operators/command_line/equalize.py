@@ -36,9 +36,9 @@ def add_command(subparsers: argparse._SubParsersAction) -> None:
     parser = subparsers.add_parser(
         "equalize",
         help="smooth or exaggerate the details of the meshes of a file, scale by scale",
-        description="Multiply the details of each scale by a gain, in a PLY, OBJ, STL, GLB or glTF file: OUT is "
-        "a copy of IN in which only coordinates differ. With Blender, .blend, .fbx, .usd and .abc files can be "
-        "worked on, too: all mesh objects in their scene.",
+        description="Multiply the details of each scale by a gain, in a PLY, OBJ, STL, GLB or glTF file: OUT "
+        "is a copy of IN in which only coordinates differ. With Blender, .blend, .fbx, .usd and .abc files "
+        "can be worked on, too: all mesh objects in their scene.",
         usage="%(prog)s IN OUT --gains G1,G2,... [options]",
         epilog="example: %(prog)s scan.ply bold.ply --gains 0.2,1,1.5",
         formatter_class=HelpFormatter,

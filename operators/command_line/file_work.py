@@ -85,8 +85,8 @@ def region_of(
 ) -> tuple[NDArray[np.bool_] | None, Region]:
     """Return which vertices of a part may move, and what else limits a run.
 
-    Vertices at the same place move together where the format splits what is one vertex, as glTF does, or where
-    they lie on open borders, as at the seams of UVs.
+    Vertices at the same place move together where the format splits what is one vertex, as glTF does, or
+    where they lie on open borders, as at the seams of UVs.
 
     Raises
     ------

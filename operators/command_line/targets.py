@@ -7,7 +7,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from ..files.safe_write import Interrupted, Outputs
+from ..files.safe_write import Outputs
+from ..files.signals import Interrupted
 from .file_types import WORDS, check_output, check_source, file_type, needs_blender
 from .messages import INTERRUPTED, USAGE_ERROR, CommandError, Messages
 
@@ -20,8 +21,8 @@ def add_target_arguments(group: argparse._ArgumentGroup) -> None:
         metavar="OUT",
         type=Path,
         nargs="?",
-        help="the file to write, of any of these types; one that exists is replaced once all went well. With the "
-        "type of IN it is a copy in which only coordinates differ; other types hold positions and faces",
+        help="the file to write, of any of these types; one that exists is replaced once all went well. With "
+        "the type of IN it is a copy in which only coordinates differ; other types hold positions and faces",
     )
     group.add_argument("--in-place", action="store_true", help="write the result to IN; OUT can be left out")
     group.add_argument(

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Mesh files without Blender: read the surface, write a copy in which only coordinates differ.
 
-Each format is one file with one interface, `mesh_file.MeshFile`; `open_file` chooses among them. What a format
-does not explain is copied byte for byte. Needs NumPy and nothing else.
+Each format has one interface, `mesh_file.MeshFile`; `open_file` chooses among them. What a format does not
+explain is copied byte for byte. Needs NumPy and nothing else.
 """
 
 from __future__ import annotations

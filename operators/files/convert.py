@@ -11,7 +11,7 @@ from .mesh_file import FileError, MeshFile
 
 
 def triangles_of(face_offset: NDArray, corner_vertex: NDArray) -> NDArray[np.int64]:
-    """Return the faces of a surface as triangles, shape (T, 3); larger ones as fans around their first corner.
+    """Return the faces of a surface as triangles, shape (T, 3); larger ones as fans around a corner.
 
     Examples
     --------

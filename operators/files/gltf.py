@@ -2,17 +2,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """glTF and GLB files: positions behind accessors change, with their bounds, normals and tangents.
 
-Skins, morph targets, materials, textures and animations are not looked at. A vertex is a place in a buffer, so that
-primitives that share an accessor share vertices; those that were split are at the same position and are welded for
-the work.
+Skins, morph targets, materials, textures and animations are not looked at. A vertex is a place in a buffer,
+so that primitives that share an accessor share vertices; those that were split are at the same position and
+are welded for the work.
 """
 
 from __future__ import annotations
 
 import base64
-import binascii
 import json
-import struct
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -24,47 +22,19 @@ from numpy.typing import NDArray
 
 from . import json_spans
 from .convert import triangles_of
+from .gltf_buffers import Buffers, Stored, as_count, as_stored, is_file
+from .gltf_container import Container, as_binary
 from .gltf_scene import placed_meshes
 from .mesh_file import FileError, MeshFile, Part
 from .normals import renewed_normals, renewed_tangents
 from .places import merge_equal
 
-MAGIC, JSON_CHUNK, BIN_CHUNK = b"glTF", 0x4E4F534A, 0x004E4942
-COMPONENTS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
-WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
 TRIANGLES, STRIP, FAN = 4, 5, 6
 COMPRESSIONS = {
     "KHR_draco_mesh_compression": "Draco",
     "EXT_meshopt_compression": "meshopt",
     "KHR_meshopt_compression": "meshopt",
 }
-
-
-@dataclass(frozen=True, eq=False)
-class Stored:
-    """Where the values of an accessor are.
-
-    Attributes
-    ----------
-    at : ndarray, shape (n,), int64
-        Byte of each element, counted over all buffers; negative for zeros that are stored nowhere.
-    dtype : dtype
-        Type of each component.
-    width : int
-        Components of each element.
-    is_normalized : bool
-        Whether whole numbers stand for fractions.
-    """
-
-    at: NDArray[np.int64]
-    dtype: np.dtype
-    width: int
-    is_normalized: bool
-
-    @property
-    def scale(self) -> float:
-        """What a stored number is divided by."""
-        return float(np.iinfo(self.dtype).max) if self.is_normalized and self.dtype.kind != "f" else 1.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,59 +72,16 @@ class GltfFile(MeshFile):
 
     def __init__(self, data: bytes, name: str, folder: Path) -> None:
         super().__init__(name)
-        self._data = data
-        self._is_binary = data.startswith(MAGIC)
-        self._text, self._bin_begin, chunk = self._split()
-        try:
-            self._json: dict[str, Any] = json.loads(self._text)
-        except json.JSONDecodeError as error:
-            raise FileError(f"The JSON text of the file is damaged in line {error.lineno}.") from error
-        if not isinstance(self._json, dict) or not isinstance(self._json.get("asset"), dict):
-            raise FileError("The file is no glTF file: its JSON text has no ‘asset’.")
-        version = str(self._json["asset"].get("version", ""))
-        if not version.startswith("2"):
-            raise FileError(f"The file has the glTF version {version!r}; only version 2 can be read.")
+        self._container = Container(data)
+        self._text, self._json = self._container.text, self._container.content
         self._refuse_compression()
-        self._load_buffers(chunk, folder)
+        self._buffers = Buffers(self._json, self._container.chunk, folder)
+        self._bytes, self._buffer_begin = self._buffers.bytes, self._buffers.begin
+        self._uris = self._buffers.uris
         self._read_primitives()
         self._find_extras()
         self.renames: dict[str, str] = {}
         """New names of files that the file refers to, for the next `patched`."""
-
-    def _split(self) -> tuple[str, int, bytes]:
-        """Return the JSON text, where the chunk of binary data begins (0 for none), and that chunk."""
-        if not self._is_binary:
-            return self._decoded(self._data), 0, b""
-        if len(self._data) < 20:
-            raise FileError("The file ends within its header; it was cut off.")
-        version, length = struct.unpack_from("<II", self._data, 4)
-        if version != 2:
-            raise FileError(f"The file has the glTF version {version}; only version 2 can be read.")
-        if length > len(self._data):
-            raise FileError(
-                f"The header speaks of {length:,} bytes, but the file has {len(self._data):,}; it was cut off."
-            )
-        text, at, chunk, begin = "", 12, b"", 0
-        while at + 8 <= length:
-            size, kind = struct.unpack_from("<II", self._data, at)
-            if at + 8 + size > length:
-                raise FileError("A chunk is longer than the file; the file was cut off or is damaged.")
-            if at == 12:
-                if kind != JSON_CHUNK:
-                    raise FileError("The first chunk of the file is not JSON; the file is damaged.")
-                self._json_size = size
-                text = self._decoded(self._data[at + 8 : at + 8 + size])
-            elif kind == BIN_CHUNK and not begin:
-                begin, chunk = at + 8, self._data[at + 8 : at + 8 + size]
-            at += 8 + size
-        return text, begin, chunk
-
-    @staticmethod
-    def _decoded(data: bytes) -> str:
-        try:
-            return data.decode("utf-8")
-        except UnicodeDecodeError as error:
-            raise FileError("The JSON text of the file is not in UTF-8; the file is damaged.") from error
 
     def _refuse_compression(self) -> None:
         """Raise FileError if the geometry is compressed."""
@@ -164,91 +91,9 @@ class GltfFile(MeshFile):
             for name in item.get("extensions", {}):
                 if name in COMPRESSIONS:
                     raise FileError(
-                        f"The meshes are compressed with {COMPRESSIONS[name]}; save the file without compression "
-                        "first, as Blender's glTF exporter does when its option Compression is off."
+                        f"The meshes are compressed with {COMPRESSIONS[name]}; save the file without "
+                        "compression first, as Blender's exporter does when its option Compression is off."
                     )
-
-    def _load_buffers(self, chunk: bytes, folder: Path) -> None:
-        """Put all buffers one after the other, so that a byte has one number."""
-        self._uris: list[str | None] = []
-        buffers = []
-        for number, buffer in enumerate(self._json.get("buffers", [])):
-            uri = buffer.get("uri")
-            size = buffer["byteLength"]
-            if uri is None:
-                if number or not self._is_binary:
-                    raise FileError(f"Buffer {number} names no file; the file is damaged.")
-                content = chunk
-            else:
-                content = _content(uri, folder)
-            if not isinstance(size, int) or len(content) < size:
-                raise FileError(
-                    f"Buffer {number} has {len(content):,} bytes, but {size} are spoken of; it was cut off."
-                )
-            self._uris.append(uri)
-            buffers.append(content)
-        sizes = [len(content) for content in buffers]
-        self._buffer_begin = np.concatenate(([0], np.cumsum(sizes))).astype(np.int64)
-        self._bytes = np.frombuffer(b"".join(buffers), np.uint8)
-
-    def _stored(self, number: Any) -> Stored:
-        """Find out where the values of an accessor are."""
-        accessor = self._json["accessors"][_index(number)]
-        count, dtype = _index(accessor["count"]), np.dtype(COMPONENTS[accessor["componentType"]])
-        width = WIDTHS[accessor["type"]]
-        size = dtype.itemsize * width
-        if "bufferView" in accessor:
-            at = self._elements(accessor["bufferView"], accessor.get("byteOffset", 0), count, size)
-        else:
-            if count > len(self._data) + len(self._bytes):
-                raise FileError(f"An accessor has {count:,} elements but no data; the file is damaged.")
-            # Zeros that are stored nowhere; each is a place of its own.
-            at = -1 - np.arange(count, dtype=np.int64) - _index(number) * 2**33
-        sparse = accessor.get("sparse")
-        if sparse is not None:
-            n, indices, values = _index(sparse["count"]), sparse["indices"], sparse["values"]
-            kind = np.dtype(COMPONENTS[indices["componentType"]])
-            where = self._elements(
-                indices["bufferView"], indices.get("byteOffset", 0), n, kind.itemsize, True
-            )
-            numbers = self._numbers(where, kind, 1).reshape(-1).astype(np.int64)
-            if n and (numbers.max() >= count or (np.diff(numbers) <= 0).any()):
-                raise FileError("The numbers of a sparse accessor are not in order; the file is damaged.")
-            at = at.copy()
-            at[numbers] = self._elements(values["bufferView"], values.get("byteOffset", 0), n, size, True)
-        return Stored(at, dtype, width, bool(accessor.get("normalized", False)))
-
-    def _elements(
-        self, view: Any, offset: Any, count: int, size: int, is_tight: bool = False
-    ) -> NDArray[np.int64]:
-        """Return where the elements of a buffer view begin, shape (count,)."""
-        found = self._json["bufferViews"][_index(view)]
-        buffer, stride = _index(found["buffer"]), _index(found.get("byteStride", 0)) or size
-        stride = size if is_tight else stride
-        begin = _index(found.get("byteOffset", 0)) + _index(offset)
-        room = int(self._buffer_begin[buffer + 1] - self._buffer_begin[buffer])
-        if stride < size or (count and begin + (count - 1) * stride + size > room):
-            raise FileError(f"A view of {count:,} elements is larger than its buffer; the file is damaged.")
-        return np.arange(count, dtype=np.int64) * stride + begin + int(self._buffer_begin[buffer])
-
-    def _numbers(self, at: NDArray[np.int64], dtype: np.dtype, width: int) -> NDArray:
-        """Return stored numbers, shape (n, width); zeros where nothing is stored."""
-        size = dtype.itemsize * width
-        step = int(at[1] - at[0]) if len(at) > 1 else size
-        if len(at) and at[0] >= 0 and (np.diff(at) == step).all() and step > 0:
-            return np.ndarray(
-                (len(at), width), dtype, self._bytes.data, int(at[0]), strides=(step, dtype.itemsize)
-            ).copy()
-        result = np.zeros((len(at), width), dtype)
-        is_stored = at >= 0
-        parts = self._bytes[at[is_stored, None] + np.arange(size)]
-        result[is_stored] = np.ascontiguousarray(parts).view(dtype).reshape(-1, width)
-        return result
-
-    def _values(self, stored: Stored) -> NDArray[np.float64]:
-        """Return the values of an accessor, shape (n, width)."""
-        numbers = self._numbers(stored.at, stored.dtype, stored.width).astype(np.float64)
-        return numbers if stored.scale == 1.0 else np.maximum(numbers / stored.scale, -1.0)
 
     def _read_primitives(self) -> None:
         found = []  # mesh, accessors, triangles
@@ -258,9 +103,9 @@ class GltfFile(MeshFile):
                 mode, attributes = primitive.get("mode", TRIANGLES), primitive["attributes"]
                 if mode not in (TRIANGLES, STRIP, FAN) or "POSITION" not in attributes:
                     continue
-                at = _index(attributes["POSITION"])
+                at = as_count(attributes["POSITION"])
                 if at not in self._accessors:
-                    self._accessors[at] = self._stored(at)
+                    self._accessors[at] = self._buffers.stored(at)
                     if self._accessors[at].width != 3:
                         raise FileError("Positions have not three coordinates; the file is damaged.")
                 count = len(self._accessors[at].at)
@@ -276,7 +121,7 @@ class GltfFile(MeshFile):
             rank = np.empty(len(first), np.int64)
             rank[order] = np.arange(len(first))
             first, vertex = first[order], rank[vertex.reshape(-1)]
-        values = [self._values(stored) for stored in self._accessors.values()]
+        values = [self._buffers.values(stored) for stored in self._accessors.values()]
         self.positions = (np.concatenate(values) if values else np.zeros((0, 3)))[first]
         self._fixed = (np.concatenate(places) if places else np.zeros(0, np.int64))[first] < 0
         self._vertex = {
@@ -298,15 +143,15 @@ class GltfFile(MeshFile):
     def _triangles(self, primitive: dict[str, Any], mode: int, count: int) -> NDArray[np.int64]:
         """Return the triangles of a primitive as numbers of its elements, shape (T, 3)."""
         if "indices" in primitive:
-            stored = self._stored(primitive["indices"])
+            stored = self._buffers.stored(primitive["indices"])
             if stored.width != 1 or stored.dtype.kind != "u":
                 raise FileError("The indices of a primitive are no whole numbers; the file is damaged.")
-            corners = self._numbers(stored.at, stored.dtype, 1).reshape(-1).astype(np.int64)
+            corners = self._buffers.numbers(stored.at, stored.dtype, 1).reshape(-1).astype(np.int64)
         else:
             corners = np.arange(count)
         if len(corners) and corners.max() >= count:
             raise FileError(
-                f"A triangle names vertex {corners.max()}, but there are {count} vertices; the file is damaged."
+                f"A triangle names vertex {corners.max()}, but there are {count}; the file is damaged."
             )
         if mode == TRIANGLES:
             return corners[: len(corners) // 3 * 3].reshape(-1, 3)
@@ -364,7 +209,7 @@ class GltfFile(MeshFile):
         uris = [image.get("uri") for image in self._json.get("images", [])]
         changing = {self._uris[buffer] for buffer in self._changing_buffers()}
         uris += [uri for uri in self._uris if uri not in changing]
-        return [unquote(uri) for uri in uris if isinstance(uri, str) and _is_file(uri)]
+        return [unquote(uri) for uri in uris if isinstance(uri, str) and is_file(uri)]
 
     def _changing_buffers(self) -> list[int]:
         """Return the buffers that positions, normals or tangents are stored in."""
@@ -372,7 +217,7 @@ class GltfFile(MeshFile):
         for each in self._primitives:
             for name in ("NORMAL", "TANGENT"):
                 if name in each.accessors:
-                    places.append(self._stored(each.accessors[name]).at)
+                    places.append(self._buffers.stored(each.accessors[name]).at)
         joined = np.concatenate(places) if places else np.zeros(0, np.int64)
         number = np.searchsorted(self._buffer_begin, joined[joined >= 0], side="right") - 1
         return np.unique(number).tolist()
@@ -383,7 +228,7 @@ class GltfFile(MeshFile):
         found = {}
         for number in self._changing_buffers():
             uri = self._uris[number]
-            if uri is not None and _is_file(uri):
+            if uri is not None and is_file(uri):
                 begin, end = self._buffer_begin[number], self._buffer_begin[number + 1]
                 found[uri] = content[begin:end].tobytes()
         return found
@@ -400,31 +245,13 @@ class GltfFile(MeshFile):
                 continue
             begin, end = self._buffer_begin[number], self._buffer_begin[number + 1]
             new: str | None = self.renames.get(uri)
-            if not _is_file(uri) and (content[begin:end] != self._bytes[begin:end]).any():
+            if not is_file(uri) and (content[begin:end] != self._bytes[begin:end]).any():
                 head = uri.partition(",")[0]
                 new = f"{head},{base64.b64encode(content[begin:end].tobytes()).decode()}"
             if new is not None and new != uri:
                 changes[json_spans.span_of(self._text, ["buffers", number, "uri"])] = json.dumps(new)
         text = json_spans.replaced(self._text, changes).encode("utf-8")
-        if not self._is_binary:
-            return text
-        return self._assembled(text, content)
-
-    def _assembled(self, text: bytes, content: NDArray[np.uint8]) -> bytes:
-        """Return a GLB file with another JSON text and another chunk of binary data."""
-        begin, size = 20, self._json_size
-        surplus = len(text) - size
-        if surplus:
-            bare = text.rstrip(b" ")
-            text = bare + b" " * max(-len(bare) % 4, 0)
-        rest = bytearray(self._data[begin + size :])
-        if self._bin_begin:
-            at = self._bin_begin - begin - size
-            first = int(self._buffer_begin[1])
-            rest[at : at + first] = content[:first].tobytes()
-        length = struct.unpack_from("<I", self._data, 8)[0] + len(text) - size
-        head = self._data[:8] + struct.pack("<III", length, len(text), JSON_CHUNK)
-        return head + text + bytes(rest)
+        return self._container.assembled(text, content[: self._buffer_begin[min(1, len(self._uris))]])
 
     def _changed(
         self, positions: NDArray[np.floating]
@@ -441,9 +268,9 @@ class GltfFile(MeshFile):
             chosen = moved[vertex] & (stored.at >= 0)
             if not chosen.any():
                 continue
-            self._store(content, stored, chosen, after[vertex[chosen]])
-            numbers = self._numbers(stored.at, stored.dtype, 3)
-            numbers[chosen] = _as_stored(after[vertex[chosen]], stored)
+            self._buffers.store(content, stored, chosen, after[vertex[chosen]])
+            numbers = self._buffers.numbers(stored.at, stored.dtype, 3)
+            numbers[chosen] = as_stored(after[vertex[chosen]], stored)
             accessor = self._json["accessors"][number]
             for key, reduced in (("min", numbers.min(axis=0)), ("max", numbers.max(axis=0))):
                 if key in accessor and accessor[key] != reduced.tolist():
@@ -458,12 +285,12 @@ class GltfFile(MeshFile):
         primitives = [each for each in self._primitives if "NORMAL" in each.accessors]
         if not primitives:
             return
-        stored = [self._stored(each.accessors["NORMAL"]) for each in primitives]
+        stored = [self._buffers.stored(each.accessors["NORMAL"]) for each in primitives]
         begin = np.cumsum([0, *(len(each.at) for each in stored)])
         if any(len(s.at) != len(p.vertex) or s.width != 3 for s, p in zip(stored, primitives, strict=True)):
             raise FileError("A primitive has not as many normals as positions; the file is damaged.")
         normals, chosen = renewed_normals(
-            np.concatenate([self._values(each) for each in stored]),
+            np.concatenate([self._buffers.values(each) for each in stored]),
             np.concatenate([self._place[each.vertex] for each in primitives]),
             np.concatenate([each.vertex[each.triangles] for each in primitives]),
             np.concatenate([each.triangles + at for each, at in zip(primitives, begin[:-1], strict=True)]),
@@ -472,23 +299,14 @@ class GltfFile(MeshFile):
         )
         for primitive, where, start, stop in zip(primitives, stored, begin[:-1], begin[1:], strict=True):
             own, is_new = normals[start:stop], chosen[start:stop] & (where.at >= 0)
-            self._store(content, where, is_new, own[is_new])
+            self._buffers.store(content, where, is_new, own[is_new])
             if "TANGENT" in primitive.accessors:
-                at = self._stored(primitive.accessors["TANGENT"])
+                at = self._buffers.stored(primitive.accessors["TANGENT"])
                 if at.width != 4 or len(at.at) != len(own):
                     continue
-                tangents, is_turned = renewed_tangents(self._values(at), own)
+                tangents, is_turned = renewed_tangents(self._buffers.values(at), own)
                 is_turned &= is_new & (at.at >= 0)
-                self._store(content, at, is_turned, tangents[is_turned])
-
-    @staticmethod
-    def _store(
-        content: NDArray[np.uint8], stored: Stored, chosen: NDArray[np.bool_], values: NDArray[np.float64]
-    ) -> None:
-        """Write values of some elements into the buffers."""
-        numbers = np.ascontiguousarray(_as_stored(values, stored))
-        size = stored.dtype.itemsize * stored.width
-        content[stored.at[chosen, None] + np.arange(size)] = numbers.view(np.uint8).reshape(-1, size)
+                self._buffers.store(content, at, is_turned, tangents[is_turned])
 
     def scene(
         self, positions: NDArray[np.floating]
@@ -511,49 +329,6 @@ class GltfFile(MeshFile):
             return positions[:0], np.zeros(1, np.int64), np.zeros(0, np.int64)
         corner = np.concatenate(corners)
         return np.concatenate(points).astype(positions.dtype), np.arange(0, len(corner) + 1, 3), corner
-
-
-def _as_stored(values: NDArray[np.float64], stored: Stored) -> NDArray:
-    """Return values as the numbers that stand for them, shape (n, width)."""
-    if stored.dtype.kind == "f":
-        return values.astype(stored.dtype)
-    limits = np.iinfo(stored.dtype)
-    return np.clip(np.rint(values * stored.scale), limits.min, limits.max).astype(stored.dtype)
-
-
-def _index(value: Any) -> int:
-    """Return a number of the JSON text that counts something."""
-    if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value < 2**40:
-        raise FileError(
-            f"{str(value)[:40]} stands where a number of elements should be; the file is damaged."
-        )
-    return value
-
-
-def _is_file(uri: str) -> bool:
-    """Return whether a URI is a relative path."""
-    return not uri.startswith("data:") and "://" not in uri
-
-
-def _content(uri: str, folder: Path) -> bytes:
-    """Return what a URI stands for."""
-    if uri.startswith("data:"):
-        head, _comma, body = uri.partition(",")
-        if not head.endswith(";base64"):
-            raise FileError("A buffer is neither base64 nor a file; save the file as .glb first.")
-        try:
-            return base64.b64decode(body, validate=True)
-        except binascii.Error as error:
-            raise FileError("A buffer in the JSON text is damaged; its base64 cannot be read.") from error
-    if not _is_file(uri):
-        raise FileError(f"The buffer {uri[:80]} is not on this computer; put it beside the file.")
-    path = folder / unquote(uri)
-    try:
-        if not path.is_file():
-            raise FileError(f"The file {path}, which holds the coordinates, does not exist.")
-        return path.read_bytes()
-    except OSError as error:
-        raise FileError(f"{path} cannot be read: {error.strerror or error}.") from error
 
 
 def new_file(positions: NDArray[np.floating], face_offset: NDArray, corner_vertex: NDArray) -> bytes:
@@ -580,14 +355,4 @@ def new_file(positions: NDArray[np.floating], face_offset: NDArray, corner_verte
         "bufferViews": views,
         "accessors": accessors,
     }
-    text = json.dumps(content, separators=(",", ":")).encode()
-    text += b" " * (-len(text) % 4)
-    length = 12 + 8 + len(text) + 8 + len(chunk)
-    head = MAGIC + struct.pack("<II", 2, length)
-    return (
-        head
-        + struct.pack("<II", len(text), JSON_CHUNK)
-        + text
-        + struct.pack("<II", len(chunk), BIN_CHUNK)
-        + chunk
-    )
+    return as_binary(json.dumps(content, separators=(",", ":")).encode(), chunk)

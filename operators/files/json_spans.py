@@ -40,10 +40,7 @@ def span_of(text: str, path: Sequence[str | int], begin: int = 0) -> tuple[int, 
     """
     at = _skip(text, begin)
     for step in path:
-        if isinstance(step, str):
-            at = _member(text, at, step)
-        else:
-            at = _item(text, at, step)
+        at = _member(text, at, step) if isinstance(step, str) else _item(text, at, step)
     return at, _DECODER.raw_decode(text, at)[1]
 
 

@@ -8,42 +8,20 @@ import os
 import re
 import secrets
 import shutil
-import signal
 import socket
 import stat
-import threading
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from pathlib import Path
-from types import FrameType, TracebackType
-from typing import Any, NamedTuple
+from types import TracebackType
+from typing import NamedTuple
 
 from .mesh_file import FileError
+from .signals import Interrupted, deferred_signals
 
 PREFIX = ".framelet-"
 _LEFT_OVER = re.compile(re.escape(PREFIX) + r"(?P<host>[0-9A-Za-z.-]+)_(?P<pid>\d+)_[0-9a-f]+(\.\w+)?")
 _CHUNK = 2**22
 _LEAST_ROOM = 2**16  # bytes; a disk with less is full
-
-
-class Interrupted(KeyboardInterrupt):
-    """A signal that came while files were moved into place; `published` are those that were.
-
-    The moves are finished first, so that files that belong together fit together.
-    """
-
-    def __init__(self, published: list[Path], exit_code: int) -> None:
-        super().__init__()
-        self.published = published
-        self.exit_code = exit_code
-
-
-class Terminated(KeyboardInterrupt):
-    """The signal SIGTERM, or SIGHUP, which ends a run as Ctrl-C does."""
-
-    def __init__(self, number: int) -> None:
-        super().__init__()
-        self.exit_code = 128 + number
 
 
 class _Move(NamedTuple):
@@ -106,8 +84,8 @@ def remove_leftovers(folder: Path) -> None:
 class Outputs:
     """Files in the making; a context manager that leaves no trace of what was not published.
 
-    Each file gets its final name in a folder of its own beside its place, so that it can be moved there in one
-    step. A link stays, and what it leads to is replaced; a file that is replaced hands down its mode.
+    Each file gets its final name in a folder of its own beside its place, so that it can be moved there in
+    one step. A link stays, and what it leads to is replaced; a file that is replaced hands down its mode.
 
     Examples
     --------
@@ -244,7 +222,7 @@ class Outputs:
         """
         done: list[Path] = []
         code = 0
-        with _deferred_signals() as signals:
+        with deferred_signals() as signals:
             for place, backup in self._backups:
                 _keep(place, backup)
             for move in self._moves:
@@ -283,50 +261,12 @@ class Outputs:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        with _deferred_signals():
+        with deferred_signals():
             for folder in self._folders:
                 shutil.rmtree(folder, ignore_errors=True)
             for path in self._siblings:
                 with suppress(OSError):
                     path.unlink(missing_ok=True)
-
-
-@contextmanager
-def signals_as_interrupts() -> Iterator[None]:
-    """Let SIGTERM and SIGHUP raise `Terminated`, so that a run ends as by Ctrl-C, and cleans up."""
-
-    def end(number: int, _frame: FrameType | None) -> None:
-        raise Terminated(number)
-
-    with _handlers(end, ("SIGTERM", "SIGHUP")):
-        yield
-
-
-@contextmanager
-def _deferred_signals() -> Iterator[list[int]]:
-    """Note signals that would end the run instead of acting on them, for a short while."""
-    noted: list[int] = []
-    with _handlers(lambda number, _frame: noted.append(number), ("SIGINT", "SIGTERM", "SIGHUP")):
-        yield noted
-
-
-@contextmanager
-def _handlers(handler: Any, names: tuple[str, ...]) -> Iterator[None]:
-    """Handle signals for a while; only the main thread can."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    before = {}
-    for name in names:
-        number = getattr(signal, name, None)
-        # What a parent told us to ignore, as nohup does, goes on being ignored.
-        if number is not None and signal.getsignal(number) not in (signal.SIG_IGN, None):
-            before[number] = signal.signal(number, handler)
-    try:
-        yield
-    finally:
-        for number, old in before.items():
-            signal.signal(number, old)
 
 
 def _mode(target: Path) -> int | None:

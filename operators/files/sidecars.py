@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Files that a mesh file refers to: materials, textures, buffers. They are kept, copied, never overwritten."""
+"""Files that a mesh file refers to, as materials and buffers: kept or copied, never overwritten."""
 
 from __future__ import annotations
 

@@ -69,8 +69,8 @@ class StlFile(MeshFile):
         found, self._normals = np.concatenate(corners), np.concatenate(normals)
         if len(found) % 3 or n_loops * 3 != len(found) or len(self._normals) * 3 != len(found):
             raise FileError(
-                f"The text has {len(found)} vertices and {len(self._normals)} facets, which are no triangles; "
-                "each facet needs three lines ‘vertex x y z’."
+                f"The text has {len(found)} vertices and {len(self._normals)} facets, which are no "
+                "triangles; each facet needs three lines ‘vertex x y z’."
             )
         if not len(found):
             raise FileError("No triangle could be read from the text; each needs three lines ‘vertex x y z’.")

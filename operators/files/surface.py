@@ -28,9 +28,9 @@ def surface_of(file: MeshFile, part: Part) -> SurfaceMesh:
     Returns
     -------
     SurfaceMesh
-        Vertex k is vertex `part.vertices[k]` of the file. Corners that repeat the one before, faces that are left
-        with less than three different vertices, name a vertex twice or come twice are left out: they say nothing
-        about the surface. The file keeps them.
+        Vertex k is vertex `part.vertices[k]` of the file. Corners that repeat the one before, faces that are
+        left with less than three different vertices, name a vertex twice or come twice are left out: they say
+        nothing about the surface. The file keeps them.
 
     Examples
     --------
@@ -130,8 +130,8 @@ def _number_edges(
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Return the edge of each corner, and the edges.
 
-    Edges are numbered as Blender numbers those of a small mesh, so that results have the same bits: by the first
-    corner before which they lie.
+    Edges are numbered as Blender numbers those of a small mesh, so that results have the same bits: by the
+    first corner before which they lie.
     """
     following = _next_corner(offset)
     before = np.empty_like(following)
