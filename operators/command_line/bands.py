@@ -38,8 +38,8 @@ def add_command(subparsers: argparse._SubParsersAction) -> None:
         "bands",
         help="write the frame coefficients of the meshes of a file as arrays",
         description="Split the surfaces in a PLY, OBJ, STL, GLB or glTF file, or with Blender all mesh "
-        "objects in the scene of a .blend, .fbx, .usd or .abc file, into a low-pass and the bands of a tight wavelet "
-        "frame; write these as NumPy arrays.",
+        "objects in the scene of a .blend, .fbx, .usd or .abc file, into a low-pass and the bands of a tight "
+        "wavelet frame; write these as NumPy arrays.",
         usage="%(prog)s IN --out BANDS.npz [options]",
         epilog=f"example: %(prog)s scan.ply --out bands.npz --frame adaptive --levels 3\n\n{LAYOUT}",
         formatter_class=HelpFormatter,

@@ -28,22 +28,28 @@ def complain(sentence: str) -> None:
         print("framelet:", " ".join(sentence.split()), file=sys.stderr, flush=True)
 
 
+_failures: list[str] = []
+
+
 def unprinted() -> str | None:
     """Return why what was said could not be printed; None if it was, or nobody reads it any more."""
-    if sys.stdout is None:
-        return None
     try:
-        sys.stdout.flush()
-    except BrokenPipeError:
-        reason = None
+        if sys.stdout is not None:
+            sys.stdout.flush()
     except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-    else:
-        return None
-    with suppress(OSError, ValueError, AttributeError):
-        # Python flushes once more as it ends, and would print a traceback.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _note_failure(error)
+        with suppress(OSError, ValueError, AttributeError):
+            # Python flushes once more as it ends, and would print a traceback.
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    reason = _failures[0] if _failures else None
+    _failures.clear()
     return reason
+
+
+def _note_failure(error: OSError | ValueError) -> None:
+    """Keep in mind why a line could not be printed; that nobody reads any more, as `head`, is no failure."""
+    if not isinstance(error, BrokenPipeError):
+        _failures.append(getattr(error, "strerror", None) or str(error))
 
 
 class Messages:
@@ -62,10 +68,10 @@ class Messages:
     def say(self, line: str) -> None:
         """Print a line on stdout."""
         if not self.is_quiet:
-            # A reader that has gone away, as `head` does, and a full disk are no reasons to give up the work;
-            # the latter is told in the end.
-            with suppress(OSError, ValueError):
+            try:
                 print(line, flush=True)
+            except (OSError, ValueError) as error:  # no reason to give up the work; it is told in the end
+                _note_failure(error)
 
     def warn(self, sentence: str) -> None:
         """Print a warning on stderr; the command goes on."""

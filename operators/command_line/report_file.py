@@ -110,7 +110,7 @@ class Report:
         except BaseException as error:
             if self._path is not None and self._can_be_written:
                 # What went wrong is more important than that it cannot be written down.
-                with suppress(FileError, OSError):
+                with suppress(FileError, OSError, KeyboardInterrupt):
                     self._content["error"] = explained(error)[0]
                     with Outputs() as outputs:
                         outputs.write(self._path, self.as_json())

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from ..files.safe_write import Outputs
 from ..files.signals import Interrupted
-from .file_types import WORDS, check_output, check_source, file_type, needs_blender
+from .file_types import BLENDER_TYPES, WORDS, check_output, check_source, file_type, needs_blender
 from .messages import INTERRUPTED, USAGE_ERROR, CommandError, Messages
 
 
@@ -66,6 +66,10 @@ def check_files(arguments: argparse.Namespace, target: Path) -> bool:
     source = arguments.source
     file_type(source)
     file_type(target)
+    if file_type(target) == ".gltf" and file_type(source) not in (".gltf", *BLENDER_TYPES):
+        raise CommandError(
+            f"{target} cannot be made of another format; write .glb, .ply, .obj or .stl instead.", USAGE_ERROR
+        )
     check_source(source)
     check_output(source, target, may_replace=arguments.in_place)
     return needs_blender(source, target)

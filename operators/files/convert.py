@@ -56,7 +56,10 @@ def converted(file: MeshFile, positions: NDArray[np.floating], kind: str) -> tup
     positions = np.asarray(positions, np.float64)
     if file.precision == np.float32:
         positions = positions.astype(np.float32)
-    positions, face_offset, corner_vertex = file.scene(positions)
+    try:
+        positions, face_offset, corner_vertex = file.scene(positions)
+    except (KeyError, IndexError, TypeError, ValueError, AttributeError) as error:
+        raise FileError(f"The scene of the file is damaged ({type(error).__name__}).") from error
     lost = list(file.extras)
     if kind in (".stl", ".glb") and len(face_offset) > 1 and np.diff(face_offset).max() > 3:
         lost.append("faces with more than three corners, which become triangles")

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 PATCHED_TYPES = (".ply", ".obj", ".stl", ".glb", ".gltf")
 """Suffixes, in lower case, of the files that are read and written without Blender."""
 
+_DAMAGES = (ValueError, LookupError, TypeError, AttributeError, OverflowError, struct.error, RecursionError)
+
 
 def open_file(path: Path) -> MeshFile:
     """Read a mesh file.
@@ -64,15 +66,7 @@ def open_file(path: Path) -> MeshFile:
             return GltfFile(data, name, path.parent)
     except FileError as error:
         raise FileError(f"{path}: {error}") from error
-    except (
-        ValueError,
-        KeyError,
-        IndexError,
-        TypeError,
-        OverflowError,
-        struct.error,
-        RecursionError,
-    ) as error:
+    except _DAMAGES as error:
         # What a header says may be wrong in more ways than there are checks.
         raise FileError(f"{path} is damaged or no {kind} file ({type(error).__name__}).") from error
     raise FileError(f"{path} is no {', '.join(PATCHED_TYPES[:-1])} or {PATCHED_TYPES[-1]} file.")

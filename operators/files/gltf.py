@@ -39,13 +39,14 @@ COMPRESSIONS = {
 
 @dataclass(frozen=True, eq=False)
 class Primitive:
-    """A part of a mesh: its mesh, its vertices, its triangles, and its accessors by attribute."""
+    """A part of a mesh: its mesh, its vertices, its triangles, and where its normals and tangents are."""
 
     mesh: int
     vertex: NDArray[np.int64]
     triangles: NDArray[np.int64]
     """As numbers of its own elements, shape (T, 3)."""
-    accessors: dict[str, int]
+    normal: Stored | None
+    tangent: Stored | None
 
 
 class GltfFile(MeshFile):
@@ -80,6 +81,7 @@ class GltfFile(MeshFile):
         self._uris = self._buffers.uris
         self._read_primitives()
         self._find_extras()
+        self._references = self._find_references()
         self.renames: dict[str, str] = {}
         """New names of files that the file refers to, for the next `patched`."""
 
@@ -129,9 +131,16 @@ class GltfFile(MeshFile):
             for at, begin, end in zip(self._accessors, sizes[:-1], sizes[1:], strict=True)
         }
         self._primitives = [
-            Primitive(number, self._vertex[attributes["POSITION"]], triangles, attributes)
+            Primitive(
+                number,
+                self._vertex[attributes["POSITION"]],
+                triangles,
+                self._shading(attributes, "NORMAL", 3),
+                self._shading(attributes, "TANGENT", 4),
+            )
             for number, attributes, triangles in found
         ]
+        self._names = {name for _number, attributes, _triangles in found for name in attributes}
         corners = [each.vertex[each.triangles].reshape(-1) for each in self._primitives]
         self.corner_vertex = np.concatenate(corners) if corners else np.zeros(0, np.int64)
         self.face_offset = np.arange(0, len(self.corner_vertex) + 1, 3)
@@ -139,6 +148,15 @@ class GltfFile(MeshFile):
             self.warnings.append(
                 "Positions are stored as whole numbers, so that the result is rounded to them."
             )
+
+    def _shading(self, attributes: dict[str, Any], name: str, width: int) -> Stored | None:
+        """Return where the normals or tangents of a primitive are; None if it has none."""
+        if name not in attributes:
+            return None
+        stored = self._buffers.stored(attributes[name])
+        if stored.width != width or len(stored.at) != len(self._vertex[attributes["POSITION"]]):
+            raise FileError(f"A primitive has not one {name} for each position; the file is damaged.")
+        return stored
 
     def _triangles(self, primitive: dict[str, Any], mode: int, count: int) -> NDArray[np.int64]:
         """Return the triangles of a primitive as numbers of its elements, shape (T, 3)."""
@@ -164,7 +182,7 @@ class GltfFile(MeshFile):
         return rows
 
     def _find_extras(self) -> None:
-        names = {name for each in self._primitives for name in each.accessors} - {"POSITION"}
+        names = self._names - {"POSITION"}
         words = {"NORMAL": "normals", "TANGENT": "tangents", "TEXCOORD": "UVs", "COLOR": "vertex colors"}
         self.extras += sorted({words.get(name.split("_")[0], name) for name in names})
         for key in ("materials", "images", "skins", "animations", "cameras"):
@@ -206,6 +224,9 @@ class GltfFile(MeshFile):
 
     def references(self) -> list[str]:
         """Return the files of images, and the buffers that hold no coordinates."""
+        return self._references
+
+    def _find_references(self) -> list[str]:
         uris = [image.get("uri") for image in self._json.get("images", [])]
         changing = {self._uris[buffer] for buffer in self._changing_buffers()}
         uris += [uri for uri in self._uris if uri not in changing]
@@ -215,9 +236,7 @@ class GltfFile(MeshFile):
         """Return the buffers that positions, normals or tangents are stored in."""
         places = [stored.at[stored.at >= 0] for stored in self._accessors.values()]
         for each in self._primitives:
-            for name in ("NORMAL", "TANGENT"):
-                if name in each.accessors:
-                    places.append(self._buffers.stored(each.accessors[name]).at)
+            places += [stored.at for stored in (each.normal, each.tangent) if stored is not None]
         joined = np.concatenate(places) if places else np.zeros(0, np.int64)
         number = np.searchsorted(self._buffer_begin, joined[joined >= 0], side="right") - 1
         return np.unique(number).tolist()
@@ -282,13 +301,11 @@ class GltfFile(MeshFile):
         self, content: NDArray[np.uint8], after: NDArray[np.float64], moved: NDArray[np.bool_]
     ) -> None:
         """Compute the normals and tangents of what moved."""
-        primitives = [each for each in self._primitives if "NORMAL" in each.accessors]
+        primitives = [each for each in self._primitives if each.normal is not None]
         if not primitives:
             return
-        stored = [self._buffers.stored(each.accessors["NORMAL"]) for each in primitives]
+        stored = [each.normal for each in primitives if each.normal is not None]
         begin = np.cumsum([0, *(len(each.at) for each in stored)])
-        if any(len(s.at) != len(p.vertex) or s.width != 3 for s, p in zip(stored, primitives, strict=True)):
-            raise FileError("A primitive has not as many normals as positions; the file is damaged.")
         normals, chosen = renewed_normals(
             np.concatenate([self._buffers.values(each) for each in stored]),
             np.concatenate([self._place[each.vertex] for each in primitives]),
@@ -300,10 +317,8 @@ class GltfFile(MeshFile):
         for primitive, where, start, stop in zip(primitives, stored, begin[:-1], begin[1:], strict=True):
             own, is_new = normals[start:stop], chosen[start:stop] & (where.at >= 0)
             self._buffers.store(content, where, is_new, own[is_new])
-            if "TANGENT" in primitive.accessors:
-                at = self._buffers.stored(primitive.accessors["TANGENT"])
-                if at.width != 4 or len(at.at) != len(own):
-                    continue
+            at = primitive.tangent
+            if at is not None:
                 tangents, is_turned = renewed_tangents(self._buffers.values(at), own)
                 is_turned &= is_new & (at.at >= 0)
                 self._buffers.store(content, at, is_turned, tangents[is_turned])

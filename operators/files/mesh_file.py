@@ -153,8 +153,13 @@ class MeshFile(ABC):
 
     def moved(self, positions: NDArray[np.floating]) -> NDArray[np.bool_]:
         """Return which vertices are elsewhere than before, shape (N,), as far as the file can tell."""
-        after = np.asarray(positions).astype(self.precision)
-        return (after != self.positions.astype(self.precision)).any(axis=1)
+        with np.errstate(invalid="ignore", over="ignore"):  # of what is no number
+            after, before = (
+                np.asarray(positions).astype(self.precision),
+                self.positions.astype(self.precision),
+            )
+        is_number = (after == after) | (before == before)
+        return ((after != before) & is_number).any(axis=1)
 
 
 def check_indices(

@@ -55,8 +55,11 @@ class ObjFile(MeshFile):
         self.corner_vertex, self.face_offset, self._face_number = faces.within(n_vertices)
         n_wrong = faces.n - len(self._face_number)
         if n_wrong:
-            what = "face names a vertex" if n_wrong == 1 else "faces name vertices"
-            self.warnings.append(f"{n_wrong:,} {what} that do not exist; they stay in the file, unused.")
+            self.warnings.append(
+                "1 face names a vertex that does not exist; it stays in the file, unused."
+                if n_wrong == 1
+                else f"{n_wrong:,} faces name vertices that do not exist; they stay in the file, unused."
+            )
         self._n_faces, self._n_lines = faces.n, lines.n
         corner, offset, self._line_number = lines.within(n_vertices)
         is_last = np.zeros(len(corner) + 1, bool)

@@ -34,7 +34,8 @@ def merge_equal(points: NDArray[np.floating]) -> tuple[NDArray[np.int64], NDArra
     n = len(points)
     if not n:
         return np.zeros(0, np.int64), np.zeros(0, np.int64)
-    bits = np.ascontiguousarray(points + points.dtype.type(0.0)).view(f"u{points.dtype.itemsize}")
+    with np.errstate(invalid="ignore"):  # of what is no number
+        bits = np.ascontiguousarray(points + points.dtype.type(0.0)).view(f"u{points.dtype.itemsize}")
     mixed = bits.astype(np.uint64) * _FACTORS
     key = mixed[:, 0] ^ (mixed[:, 1] >> np.uint64(17)) ^ (mixed[:, 2] << np.uint64(13)) ^ mixed[:, 1]
     order = np.argsort(key)

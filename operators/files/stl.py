@@ -36,7 +36,7 @@ class StlFile(MeshFile):
         n = int(np.frombuffer(data, "<u4", 1, HEAD - 4)[0]) if len(data) >= HEAD else 0
         size = HEAD + TRIANGLE.itemsize * n
         looks_like_text = data.lstrip()[:5].lower() == b"solid"
-        self._is_text = looks_like_text and len(data) != size
+        self._is_text = looks_like_text and len(data) != size and b"\0" not in data[: HEAD + 512]
         if not self._is_text and (len(data) < HEAD or len(data) < size):
             if len(data) < HEAD or n == 0:
                 raise FileError("The file is no STL file: it begins neither with ‘solid’ nor with a header.")
@@ -46,14 +46,16 @@ class StlFile(MeshFile):
             )
         corners = self._read_text() if self._is_text else self._read_binary(n)
         self._vertex, first = merge_equal(corners)
-        self.positions = corners[first].astype(np.float64)
+        with np.errstate(invalid="ignore"):  # of what is no number
+            self.positions = corners[first].astype(np.float64)
         self.corner_vertex = self._vertex
         self.face_offset = np.arange(0, len(corners) + 1, 3)
 
     def _read_binary(self, n: int) -> NDArray[np.float32]:
         """Return the corners of all triangles, shape (3 n, 3)."""
         self._triangles = np.frombuffer(self._data, TRIANGLE, n, HEAD)
-        self._normals = self._triangles["normal"].astype(np.float64)
+        with np.errstate(invalid="ignore"):  # of what is no number
+            self._normals = self._triangles["normal"].astype(np.float64)
         if self._triangles["attribute"].any():
             self.extras.append("attributes of triangles")
         return np.ascontiguousarray(self._triangles["corners"].reshape(-1, 3), np.float32)

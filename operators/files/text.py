@@ -141,7 +141,10 @@ def numbers(letters: NDArray[np.uint8] | bytes, dtype: DTypeLike, n_expected: in
     text = bytes(letters)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", DeprecationWarning)  # of texts that are not understood to the end
-        found = np.fromstring(text, dtype, sep=" ") if text.strip() else np.zeros(0, dtype)
+        try:
+            found = np.fromstring(text, dtype, sep=" ") if text.strip() else np.zeros(0, dtype)
+        except ValueError:  # of newer versions of NumPy, for the same texts
+            found = np.zeros(0, dtype)
     if len(found) == n_expected:
         return found
     for word in text.split():
@@ -149,6 +152,9 @@ def numbers(letters: NDArray[np.uint8] | bytes, dtype: DTypeLike, n_expected: in
             _ = float(word) if np.dtype(dtype).kind == "f" else int(word)
         except ValueError:
             raise FileError(f"{shown(word)} stands where a number should be.") from None
+    found = np.array(text.split(), dtype) if len(text.split()) == n_expected else found
+    if len(found) == n_expected:  # Python reads more spellings than NumPy
+        return found
     raise FileError(f"There are {len(found)} numbers where {n_expected} should be; the file is damaged.")
 
 

@@ -16,11 +16,11 @@ from .sweeps import make_sweep
 from .terrain import make_terrain
 
 STEEPEST = (3.0, 8.0)
-"""A cell is empty where its corners are farther apart in depth, in spacings: another surface is behind."""
+"""A cell of the grid is empty where its corners are farther apart in depth, in spacings: another surface is behind."""
 
 
 def depth_image(mesh: Mesh, shape: tuple[int, int], stretch: float):
-    """Look along -z at a mesh; return the grid's spacings (2,) and depths, NaN where nothing is."""
+    """Look along -z at a mesh from outside; return the grid's spacings (2,) and depths, NaN where nothing is."""
     from bpy import data as blender
     from mathutils.bvhtree import BVHTree
 
@@ -115,7 +115,8 @@ def _manifold(mesh: Mesh) -> Mesh:
     is_same = (ends[1:] == ends[:-1]).all(1)
     left, right = own[:-1][is_same].ravel(), own[1:][is_same].ravel()
     n = len(mesh.corner_vertex)
-    graph = coo_matrix((np.ones(len(left), bool), (left, right)), (n, n))
-    _, fan = connected_components(graph, directed=False)
+    _, fan = connected_components(
+        coo_matrix((np.ones(len(left), bool), (left, right)), (n, n)), directed=False
+    )
     _, first = np.unique(fan, return_index=True)
     return Mesh(mesh.vertices[mesh.corner_vertex[first]], mesh.face_offset, fan.astype(np.int32))

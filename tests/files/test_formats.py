@@ -1,0 +1,403 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
+"""Each format with everything that it allows: denoised, and all that is no coordinate is as it was."""
+
+import json
+import re
+import struct
+
+import numpy as np
+import pytest
+from framelet.core import PRESETS, Region, SurfaceMesh, denoise
+from framelet.operators.files import FileError, open_file
+
+from .made import full_gltf, full_obj, full_ply, full_stl_binary, full_stl_text, sheet
+
+POSITIONS = ("--preset", "tri-2")
+ORDERS = ("ascii", "binary_little_endian", "binary_big_endian")
+
+
+def run(command, source, target, *options):
+    """Denoise a file, and return both contents."""
+    before = source.read_bytes()
+    result = command("denoise", source, target, *POSITIONS, *options)
+    assert result.code == 0, result.err
+    assert source.read_bytes() == before
+    return before, target.read_bytes()
+
+
+@pytest.mark.parametrize("coordinate", ["float", "double"])
+@pytest.mark.parametrize("order", ORDERS)
+def test_ply(command, tmp_path, order, coordinate):
+    data, is_coordinate, n_head = full_ply(order, coordinate)
+    source = tmp_path / "in.ply"
+    source.write_bytes(data)
+    before, after = run(command, source, tmp_path / "out.ply")
+    assert after[:n_head] == before[:n_head]
+    if order == "ascii":
+        words = [re.split(rb"(\s+)", each[n_head:]) for each in (before, after)]
+        assert len(words[0]) == len(words[1]) and words[0][1::2] == words[1][1::2]
+        (old, new), n = (np.array(each[0::2][:-1], object) for each in words), len(is_coordinate)
+        assert len(old) == n and (old == new)[~is_coordinate].all()
+        changed = old != new
+        decimals = [len(word.partition(b".")[2]) for word in new[is_coordinate & changed]]
+        assert min(decimals) >= 6 or coordinate == "float"
+    else:
+        old, new = (np.frombuffer(each, np.uint8)[n_head:] for each in (before, after))
+        assert len(old) == len(new) == len(is_coordinate)
+        changed = old != new
+        assert not changed[~is_coordinate].any()
+    assert changed[is_coordinate].mean() > 0.2
+    moved = open_file(tmp_path / "out.ply")
+    assert moved.precision == (np.float64 if coordinate == "double" else np.float32)
+    assert np.abs(moved.positions - sheet()[0]).max() < 1.0
+    # The same as the mesh itself, without its faces that are none.
+    corners = np.split(moved.corner_vertex, moved.face_offset[1:-1])
+    seen, faces = set(), []
+    for face in corners:
+        if len(set(face.tolist())) == len(face) > 2 and frozenset(face.tolist()) not in seen:
+            seen.add(frozenset(face.tolist()))
+            faces.append(face)
+    noisy = open_file(source).positions.astype(moved.precision)
+    expected = denoise(SurfaceMesh.from_faces(noisy, faces), PRESETS["TRI_2"].settings).vertices
+    np.testing.assert_allclose(moved.positions, expected, atol=2e-5)
+
+
+@pytest.mark.parametrize("order", ORDERS)
+def test_ply_strips(tmp_path, order):
+    strip = [0, 1, 2, 3, -1, 4, 5, 6]
+    head = (
+        f"ply\nformat {order} 1.0\nelement vertex 7\nproperty float x\nproperty float y\nproperty float z\n"
+        "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+    ).encode()
+    points = np.arange(21.0).reshape(7, 3)
+    if order == "ascii":
+        body = "\n".join(" ".join(map(str, row)) for row in [*points.tolist(), [len(strip), *strip]]).encode()
+    else:
+        sign = "<" if "little" in order else ">"
+        body = points.astype(sign + "f4").tobytes() + np.array([len(strip), *strip], sign + "i4").tobytes()
+    (tmp_path / "in.ply").write_bytes(head + body)
+    file = open_file(tmp_path / "in.ply")
+    assert file.corner_vertex.reshape(-1, 3).tolist() == [[0, 1, 2], [2, 1, 3], [4, 5, 6]]
+
+
+@pytest.mark.parametrize("newline", ["\n", "\r\n"])
+def test_obj(command, tmp_path, newline):
+    source = tmp_path / "in.obj"
+    source.write_bytes(full_obj(newline))
+    before, after = run(command, source, tmp_path / "out.obj")
+    pattern = re.compile(rb"^(\s*v\s+)(\S+)(\s+)(\S+)(\s+)(\S+)(.*)$", re.DOTALL)
+    old, new = (each.split(b"\n") for each in (before, after))
+    assert len(old) == len(new)
+    n_changed = 0
+    for first, second in zip(old, new, strict=True):
+        found = [pattern.match(line) for line in (first, second)]
+        if found[0] is None:
+            assert first == second
+            continue
+        for group in (1, 3, 5, 7):
+            assert found[0][group] == found[1][group]
+        n_changed += first != second
+        for group in (2, 4, 6):
+            decimals = [len(each[group].partition(b".")[2]) for each in found]
+            assert decimals[1] >= decimals[0]
+    assert n_changed > 100
+    file = open_file(source)
+    np.testing.assert_allclose(file.positions, sheet()[0], atol=6e-5)
+    assert np.array_equal(file.corner_vertex.reshape(-1, 3), sheet()[1])
+    assert "1 face names a vertex" in file.warnings[0]
+    assert file.loose_edges.tolist() == [[0, 1], [1, 2]]
+    assert file.weights("second").sum() > file.weights("first").sum() > 0 and file.weights("third") is None
+
+
+@pytest.mark.parametrize("make", [full_stl_text, full_stl_binary])
+def test_stl(command, tmp_path, make):
+    source = tmp_path / "in.stl"
+    source.write_bytes(make())
+    before, after = run(command, source, tmp_path / "out.stl")
+    file, moved = open_file(source), open_file(tmp_path / "out.stl")
+    assert len(file.positions) == len(sheet()[0]) == len(moved.positions)
+    assert np.array_equal(file.corner_vertex, moved.corner_vertex)
+    if make is full_stl_binary:
+        from framelet.operators.files.stl import TRIANGLE
+
+        old, new = (np.frombuffer(each, TRIANGLE, offset=84) for each in (before, after))
+        assert before[:84] == after[:84] and np.array_equal(old["attribute"], new["attribute"])
+        normals, corners = new["normal"], new["corners"].astype(float)
+    else:
+        keep = re.compile(rb"^(\s*(?:vertex|facet\s+normal))\s.*$", re.IGNORECASE | re.MULTILINE)
+        assert keep.sub(rb"\1", before) == keep.sub(rb"\1", after)
+        numbers = re.findall(rb"(?i)normal +(\S+) (\S+) (\S+)\s+outer", after)
+        normals = np.array(numbers, float)
+        rows = re.findall(rb"(?i)vertex +(\S+) (\S+) (\S+)\s", after)
+        corners = np.array(rows, float).reshape(-1, 3, 3)
+    expected = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    expected /= np.linalg.norm(expected, axis=1, keepdims=True)
+    without = np.flatnonzero((normals == 0).all(axis=1))
+    assert without.tolist() == [4] if make is full_stl_binary else len(without) == 2
+    given = np.delete(np.arange(len(normals)), without)
+    np.testing.assert_allclose(normals[given], expected[given], atol=1e-4)
+
+
+def gltf_values(data, folder):
+    """Return the JSON content, and the values of all accessors as float arrays, by plain means."""
+    if data[:4] == b"glTF":
+        size = struct.unpack_from("<I", data, 12)[0]
+        content = json.loads(data[20 : 20 + size])
+        buffer = data[28 + size :]
+    else:
+        content = json.loads(data)
+        uri = content["buffers"][0]["uri"]
+        if uri.startswith("data:"):
+            import base64
+
+            buffer = base64.b64decode(uri.split(",")[1])
+        else:
+            buffer = (folder / uri.replace("%20", " ")).read_bytes()
+    kinds = {5121: "u1", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
+    widths = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
+
+    def read(view, kind, count, width):
+        view = content["bufferViews"][view]
+        step = view.get("byteStride", np.dtype(kind).itemsize * width)
+        rows = [np.frombuffer(buffer, kind, width, view["byteOffset"] + k * step) for k in range(count)]
+        return np.array(rows)
+
+    values = []
+    for accessor in content["accessors"]:
+        kind, width = kinds[accessor["componentType"]], widths[accessor["type"]]
+        found = read(accessor["bufferView"], kind, accessor["count"], width)
+        if "sparse" in accessor:
+            sparse = accessor["sparse"]
+            numbers = read(sparse["indices"]["bufferView"], "u1", sparse["count"], 1).ravel()
+            found[numbers] = read(sparse["values"]["bufferView"], kind, sparse["count"], width)
+        values.append(found)
+    return content, values
+
+
+@pytest.mark.parametrize("kind", ["glb", "embedded", "separate"])
+def test_gltf(command, tmp_path, kind):
+    data, buffer = full_gltf(kind)
+    source = tmp_path / f"in.{'glb' if kind == 'glb' else 'gltf'}"
+    source.write_bytes(data)
+    (tmp_path / "sheet data.bin").write_bytes(buffer)
+    target = tmp_path / f"out{source.suffix}"
+    before, after = run(command, source, target)
+    (old, old_values), (new, new_values) = (gltf_values(each, tmp_path) for each in (before, after))
+    if kind == "separate":
+        assert new["buffers"][0]["uri"] == "out.bin"
+        assert (tmp_path / "sheet data.bin").read_bytes() == buffer
+        new["buffers"][0]["uri"] = old["buffers"][0]["uri"]
+    primitives = new["meshes"][0]["primitives"]
+    positions = [each["attributes"]["POSITION"] for each in primitives[:2]]
+    shading = [each["attributes"][name] for each in primitives[:2] for name in ("NORMAL", "TANGENT")
+               if name in each["attributes"]]  # fmt: skip
+    for number in range(len(old_values)):
+        if number in positions:
+            low, high = new_values[number].min(axis=0), new_values[number].max(axis=0)
+            assert new["accessors"][number]["min"] == low.tolist()
+            assert new["accessors"][number]["max"] == high.tolist()
+            assert np.abs(new_values[number] - old_values[number]).max() < 1
+            old["accessors"][number] |= {"min": low.tolist(), "max": high.tolist()}
+        elif number not in shading:
+            assert number in (4, 5) or np.array_equal(old_values[number], new_values[number]), number
+    if kind == "embedded":
+        new["buffers"][0]["uri"] = old["buffers"][0]["uri"]
+    assert old == new
+    # The seam between the primitives is closed, and one with the mesh that was not split.
+    points, faces = sheet()
+    single = points.astype(np.float32)
+    expected = denoise(SurfaceMesh.from_faces(single, faces), PRESETS["TRI_2"].settings).vertices
+    used = np.unique(faces[len(faces) // 2 :])
+    in_first = np.unique(faces[: len(faces) // 2])
+    np.testing.assert_allclose(new_values[positions[0]][in_first], expected[in_first], atol=1e-5)
+    np.testing.assert_allclose(new_values[positions[1]], expected[used], atol=1e-5)
+    both = np.intersect1d(used, in_first)
+    number = np.searchsorted(used, both)
+    assert np.array_equal(new_values[positions[0]][both], new_values[positions[1]][number])
+    # Normals are those of the new surface, also across the seam; tangents lie in its planes.
+    areas = np.cross(
+        expected[faces[:, 1]] - expected[faces[:, 0]], expected[faces[:, 2]] - expected[faces[:, 0]]
+    )
+    normals = np.zeros_like(expected)
+    for column in faces.T:
+        np.add.at(normals, column, areas)
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    np.testing.assert_allclose(new_values[shading[0]][in_first], normals[in_first], atol=1e-3)
+    np.testing.assert_allclose(new_values[shading[1]], normals[used], atol=1e-3)
+    tangents = new_values[shading[2]]
+    assert np.abs(np.einsum("ni,ni->n", tangents[:, :3], normals[used])).max() < 1e-3
+    assert (tangents[:, 3] == -1).all()
+
+
+def test_glb_bytes_outside(command, tmp_path):
+    """Not only values: padding between vertices, unknown chunks and the JSON text are the same bytes."""
+    data, _buffer = full_gltf("glb", sparse=False)
+    (tmp_path / "in.glb").write_bytes(data)
+    before, after = run(command, tmp_path / "in.glb", tmp_path / "out.glb")
+    sizes = [struct.unpack_from("<I", each, 12)[0] for each in (before, after)]
+    bounds = re.compile(r'"(min|max)": ?\[[^]]*\]')
+    texts = [each[20 : 20 + size].decode() for each, size in zip((before, after), sizes, strict=True)]
+    assert bounds.sub("", texts[0]).rstrip() == bounds.sub("", texts[1]).rstrip()
+    rest = [
+        np.frombuffer(each[20 + size :], np.uint8) for each, size in zip((before, after), sizes, strict=True)
+    ]
+    assert len(rest[0]) == len(rest[1])
+    changed = np.flatnonzero(rest[0] != rest[1]) - 8
+    content, _values = gltf_values(before, tmp_path)
+    allowed = np.zeros(len(rest[0]), bool)
+    for number in (0, 1, 3, 4, 5):  # positions, normals and tangents
+        view = content["bufferViews"][content["accessors"][number]["bufferView"]]
+        step = view.get("byteStride", 12 if number < 5 else 16)
+        begin = view["byteOffset"] + np.arange(content["accessors"][number]["count"])[:, None] * step
+        allowed[begin + np.arange(12)] = True
+    assert allowed[changed].all() and len(changed) > 1000
+
+
+def test_compressed_gltf_is_refused_with_a_way_out(fails, tmp_path):
+    for name in ("KHR_draco_mesh_compression", "EXT_meshopt_compression"):
+        data, _buffer = full_gltf("embedded")
+        content = json.loads(data)
+        if "draco" in name:
+            content["meshes"][0]["primitives"][0]["extensions"] = {name: {}}
+        else:
+            content["bufferViews"][0]["extensions"] = {name: {}}
+        (tmp_path / "in.gltf").write_text(json.dumps(content))
+        sentence = fails("denoise", tmp_path / "in.gltf", tmp_path / "out.gltf")
+        assert "compressed with" in sentence and "without compression" in sentence
+        assert not (tmp_path / "out.gltf").exists()
+
+
+def test_quantized_gltf_is_rounded_and_says_so(command, tmp_path):
+    points, faces = sheet()
+    low, size = points.min(), np.ptp(points)
+    whole = np.rint((points - low) / size * 65535).astype("<u2")
+    padded = np.zeros((len(points), 4), "<u2")
+    padded[:, :3] = whole
+    corners = faces.astype("<u2").ravel()
+    buffer = padded.tobytes() + corners.tobytes()
+    content = {
+        "asset": {"version": "2.0"},
+        "extensionsRequired": ["KHR_mesh_quantization"],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+        "accessors": [
+            {"bufferView": 0, "componentType": 5123, "normalized": True, "count": len(points), "type": "VEC3",
+             "min": whole.min(0).tolist(), "max": whole.max(0).tolist()},
+            {"bufferView": 1, "componentType": 5123, "count": len(corners), "type": "SCALAR"},
+        ],
+        "bufferViews": [
+            {"buffer": 0, "byteOffset": 0, "byteLength": padded.nbytes, "byteStride": 8},
+            {"buffer": 0, "byteOffset": padded.nbytes, "byteLength": corners.nbytes},
+        ],
+        "buffers": [{"byteLength": len(buffer), "uri": "in.bin"}],
+    }  # fmt: skip
+    (tmp_path / "in.bin").write_bytes(buffer)
+    (tmp_path / "in.gltf").write_text(json.dumps(content))
+    result = command("denoise", tmp_path / "in.gltf", tmp_path / "out.gltf", *POSITIONS)
+    assert result.code == 0 and "rounded" in result.err
+    new = json.loads((tmp_path / "out.gltf").read_text())
+    found = np.frombuffer((tmp_path / "out.bin").read_bytes(), "<u2", padded.size).reshape(-1, 4)
+    assert new["accessors"][0]["max"] == found[:, :3].max(0).tolist()
+    noisy = (whole / 65535).astype(np.float32)
+    expected = denoise(SurfaceMesh.from_faces(noisy, faces), PRESETS["TRI_2"].settings).vertices
+    np.testing.assert_allclose(found[:, :3] / 65535, expected, atol=1.01 / 65535)
+
+
+def test_strength_zero_changes_no_byte(command, tmp_path):
+    contents = {
+        "a.ply": full_ply("ascii")[0],
+        "b.ply": full_ply("binary_big_endian", "double")[0],
+        "c.obj": full_obj(),
+        "d.stl": full_stl_text(),
+        "e.stl": full_stl_binary(),
+        "f.glb": full_gltf("glb")[0],
+    }
+    for name, content in contents.items():
+        (tmp_path / name).write_bytes(content)
+        result = command("denoise", tmp_path / name, tmp_path / f"out-{name}", "--strength", "0")
+        assert result.code == 0, result.err
+        assert (tmp_path / f"out-{name}").read_bytes() == content, name
+
+
+def test_split_seams_move_together_in_all_formats(command, tmp_path):
+    points, faces = sheet()
+    corners = points[faces].reshape(-1, 3)
+    lines = ["v " + " ".join(map(str, corner)) for corner in corners]
+    lines += [f"f {3 * k + 1} {3 * k + 2} {3 * k + 3}" for k in range(len(faces))]
+    (tmp_path / "soup.obj").write_text("\n".join(lines))
+    result = command("denoise", tmp_path / "soup.obj", tmp_path / "out.obj", *POSITIONS)
+    assert "vertices welded" in result.out
+    after = open_file(tmp_path / "out.obj").positions
+    expected = denoise(
+        SurfaceMesh.from_faces(corners, np.arange(len(corners)).reshape(-1, 3)),
+        PRESETS["TRI_2"].settings,
+        region=Region(weld_distance=0.0),
+    ).vertices
+    np.testing.assert_allclose(after, expected, atol=1e-6)
+    assert len(np.unique(after, axis=0)) == len(points)
+
+
+@pytest.mark.parametrize("kind", ["ply", "obj", "stl", "glb"])
+@pytest.mark.parametrize("source", ["in.ply", "in.obj", "in.stl", "in.glb"])
+def test_conversions(command, tmp_path, source, kind):
+    content = {
+        "in.ply": full_ply("binary_little_endian", "double")[0],
+        "in.obj": full_obj(),
+        "in.stl": full_stl_binary(),
+        "in.glb": full_gltf("glb")[0],
+    }[source]
+    (tmp_path / source).write_bytes(content)
+    if source.endswith(kind):
+        return
+    target = tmp_path / f"out.{kind}"
+    result = command("denoise", tmp_path / source, target, "--strength", "0")
+    assert result.code == 0, result.err
+    assert f"made of a .{source[3:]} file holds positions and faces only; left out: " in result.err
+    lost = {"in.ply": "class_id", "in.obj": "materials", "in.stl": "attributes", "in.glb": "skins"}[source]
+    assert lost in result.err
+    before, after = open_file(tmp_path / source), open_file(target)
+    offset = [1, 2, 3] if source == "in.glb" else [0, 0, 0]  # where its node is
+    low, high = before.positions.min(axis=0) + offset, before.positions.max(axis=0) + offset
+    np.testing.assert_allclose(after.positions.min(axis=0), low, rtol=1e-6, atol=1e-6)
+    np.testing.assert_allclose(after.positions.max(axis=0), high, rtol=1e-6, atol=1e-6)
+    if kind in ("ply", "obj"):
+        assert after.n_faces == before.n_faces
+        assert np.array_equal(np.diff(after.face_offset), np.diff(before.face_offset))
+
+
+def test_gltf_cannot_be_made_of_others(fails, tmp_path):
+    (tmp_path / "in.obj").write_bytes(full_obj())
+    sentence = fails("denoise", tmp_path / "in.obj", tmp_path / "out.gltf", code=2)
+    assert "write .glb" in sentence
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "message"),
+    [
+        ("a.ply", b"plx\n", "does not begin with"),
+        ("a.ply", b"ply\nformat ascii 1.0\n", "has no end"),
+        ("a.ply", b"ply\nformat ascii 1.0\nelement vertex \nend_header\n", "cannot be understood"),
+        (
+            "a.ply",
+            b"ply\nformat ascii 1.0\nelement vertex 9999999999\nproperty float x\nend_header\n0\n",
+            "but only",
+        ),
+        ("a.ply", full_ply("binary_little_endian")[0][:-2000], "cut off"),
+        ("a.ply", full_ply("ascii")[0][:-200], "cut off"),
+        ("a.obj", b"v 0 0 zero\n", "stands where a number should be"),
+        ("a.obj", b"v 0 0\n", "less than three coordinates"),
+        ("a.stl", full_stl_binary()[:-1], "has room for"),
+        ("a.stl", b"solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n", "which are no triangles"),
+        ("a.stl", b"solid\nendsolid\n".ljust(200), "No triangle could be read"),
+        ("a.glb", full_gltf("glb")[0][:-1], "cut off"),
+        ("a.gltf", full_gltf("separate")[0], "does not exist"),
+        ("a.gltf", b"{}", "no ‘asset’"),
+        ("a.gltf", b'{"asset": {"version": "1.0"}}', "only version 2"),
+    ],
+)
+def test_damaged_files(tmp_path, name, content, message):
+    (tmp_path / name).write_bytes(content)
+    with pytest.raises(FileError, match=re.escape(message)) as caught:
+        open_file(tmp_path / name)
+    assert str(caught.value).count("\n") == 0 and str(tmp_path / name) in str(caught.value)
