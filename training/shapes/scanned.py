@@ -107,16 +107,13 @@ def _manifold(mesh: Mesh) -> Mesh:
     # Corners at the same vertex belong together if their faces share an edge there.
     sides = [(0, 1), (1, 2), (2, 0)]
     ends = np.concatenate([np.sort(faces[:, side], axis=1) for side in sides])
-    own = np.concatenate(
-        [np.take_along_axis(corner[:, side], np.argsort(faces[:, side], axis=1), 1) for side in sides]
-    )
+    own = np.concatenate([np.take_along_axis(corner[:, side], np.argsort(faces[:, side], axis=1), 1) for side in sides])
     order = np.lexsort(ends.T)
     ends, own = ends[order], own[order]
     is_same = (ends[1:] == ends[:-1]).all(1)
     left, right = own[:-1][is_same].ravel(), own[1:][is_same].ravel()
     n = len(mesh.corner_vertex)
-    _, fan = connected_components(
-        coo_matrix((np.ones(len(left), bool), (left, right)), (n, n)), directed=False
-    )
+    _, fan = connected_components(coo_matrix((np.ones(len(left), bool), (left, right)), (n, n)), directed=False)
     _, first = np.unique(fan, return_index=True)
     return Mesh(mesh.vertices[mesh.corner_vertex[first]], mesh.face_offset, fan.astype(np.int32))
+
