@@ -18,7 +18,7 @@ from .messages import CommandError, Messages
 if TYPE_CHECKING:
     import bpy
 
-    from ...core.denoising.report import DenoiseReport
+    from ...core.report import DenoiseReport
 
 
 class MarkedMessages(Messages):
@@ -79,9 +79,9 @@ def carry_out(job: dict[str, Any]) -> int:
 def _denoise(job: dict[str, Any], messages: MarkedMessages) -> dict[str, Any]:
     import bpy
 
-    from ...core.region_options import RegionOptions
     from ...core.settings import DenoiseSettings
-    from ..denoise_object import denoise_object
+    from ..properties.region_options import RegionOptions
+    from ..run.denoise_object import denoise_object
     from .denoise import describe_result
     from .report_file import entry, plain
 
@@ -116,7 +116,7 @@ def _equalize(job: dict[str, Any], messages: MarkedMessages) -> dict[str, Any]:
 
 def _bands(job: dict[str, Any], messages: MarkedMessages) -> dict[str, Any]:
     from ...core.settings import DenoiseSettings
-    from ..mesh_bridge import read_surface, refusal
+    from ..mesh_io.mesh_bridge import read_surface, refusal
     from .bands import analyzed, numbered
     from .importing import open_source
 

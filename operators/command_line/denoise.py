@@ -9,11 +9,11 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ...core.region_options import RegionOptions
 from ...core.settings import DenoiseSettings
 from ..files.safe_write import Outputs
-from ..output_choices import IN_PLACE, OUTPUTS
-from ..scene_units import LEAST_WIDTH
+from ..properties.output_choices import IN_PLACE, OUTPUTS
+from ..properties.region_options import RegionOptions
+from ..properties.scene_units import LEAST_WIDTH
 from .arguments import (
     HelpFormatter,
     add_setting_options,
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ...core import NoiseBelief, NoiseEstimate, SurfaceMesh
-    from ...core.denoising.report import DenoiseReport
+    from ...core.report import DenoiseReport
     from ..files import Part
     from .mesh_work import Outcome
 

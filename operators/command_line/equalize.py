@@ -119,7 +119,7 @@ def displacement(before: NDArray[np.floating], after: NDArray[np.floating]) -> t
     """Return how far vertices, shape (N, 3), moved: the root of the mean square, and the largest distance."""
     import numpy as np
 
-    from ..scene_units import displacement_by
+    from ..properties.scene_units import displacement_by
 
     return displacement_by(np.eye(3), before, after)
 

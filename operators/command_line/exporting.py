@@ -9,7 +9,7 @@ from typing import Any
 
 import bpy
 
-from ..mesh_bridge import read_surface
+from ..mesh_io.mesh_bridge import read_surface
 from .file_types import BLEND, file_type
 from .importing import AXES, call, exists
 from .messages import Messages

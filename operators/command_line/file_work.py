@@ -16,9 +16,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ...core import Region, SurfaceMesh
-    from ...core.region_options import RegionOptions
     from ..files import MeshFile, Part
     from ..files.safe_write import Outputs
+    from ..properties.region_options import RegionOptions
 
 
 class OpenedFile(NamedTuple):
@@ -95,8 +95,8 @@ def region_of(
     """
     from dataclasses import replace
 
-    from ...core.surface.checks import check_positions
-    from ...core.surface.geometry import mean_edge_length
+    from ...core.mesh.checks import check_positions
+    from ...core.mesh.geometry import mean_edge_length
     from ..files.surface import border_is_split
 
     check_positions(surface)
@@ -149,7 +149,7 @@ def write_target(opened: OpenedFile, target: Path, outputs: Outputs, messages: M
 
 def refuse_blender_options(arguments_output: str, target: Path) -> None:
     """Raise CommandError if a result is to go where only a .blend file has a place for it."""
-    from ..output_choices import IN_PLACE
+    from ..properties.output_choices import IN_PLACE
     from .arguments import as_word
     from .file_types import BLEND, file_type
     from .messages import USAGE_ERROR

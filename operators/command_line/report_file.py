@@ -12,12 +12,12 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from ...core.denoising.report import DenoiseReport
-from ...core.noise.field import NoiseBelief
-from ...core.region_options import RegionOptions
+from ...core.learned.noise_field import NoiseBelief
+from ...core.report import DenoiseReport
 from ...core.settings import DenoiseSettings
 from ..files.mesh_file import FileError
 from ..files.safe_write import Outputs, check_target
+from ..properties.region_options import RegionOptions
 from . import explained
 from .file_types import is_same_file
 from .mesh_work import Outcome

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from ..core.frame_catalog import FRAME_CATALOG
+from ...core.settings.frame_catalog import FRAME_CATALOG
 
 try:
     from bpy.app.translations import pgettext_n as n_
@@ -20,7 +20,7 @@ except ImportError:  # the command line asks without Blender
 if TYPE_CHECKING:
     import bpy
 
-    from ..core import SurfaceMesh
+    from ...core import SurfaceMesh
 
 _LATTICES = {entry.identifier: entry.lattice for entry in FRAME_CATALOG}
 _LABELS = {entry.identifier: entry.label for entry in FRAME_CATALOG}
@@ -111,7 +111,7 @@ def is_on_cells(frame: str, stencil: str) -> bool:
     """Tell whether the finest bands of a frame live on cells."""
     if stencil == "ADAPTIVE" or not _HAS_BANK.get(frame):
         return False
-    from ..core import BANKS
+    from ...core import BANKS
 
     return BANKS[frame].is_cell_centered
 
@@ -154,7 +154,7 @@ def count_bands(frame: str, stencil: str, facts: MeshFacts) -> int:
         return valence * (valence + 1) // 2
     if stencil == "ADAPTIVE" or not _HAS_BANK[frame]:
         return valence
-    from ..core import BANKS
+    from ...core import BANKS
 
     return BANKS[frame].n_bands - 1
 

@@ -16,11 +16,11 @@ from .sweeps import make_sweep
 from .terrain import make_terrain
 
 STEEPEST = (3.0, 8.0)
-"""A cell of the grid is empty where its corners are farther apart in depth, in spacings: another surface is behind."""
+"""A cell is empty where its corners are farther apart in depth, in spacings: another surface is behind."""
 
 
 def depth_image(mesh: Mesh, shape: tuple[int, int], stretch: float):
-    """Look along -z at a mesh from outside; return the grid's spacings (2,) and depths, NaN where nothing is."""
+    """Look along -z at a mesh; return the grid's spacings (2,) and depths, NaN where nothing is."""
     from bpy import data as blender
     from mathutils.bvhtree import BVHTree
 
@@ -107,13 +107,15 @@ def _manifold(mesh: Mesh) -> Mesh:
     # Corners at the same vertex belong together if their faces share an edge there.
     sides = [(0, 1), (1, 2), (2, 0)]
     ends = np.concatenate([np.sort(faces[:, side], axis=1) for side in sides])
-    own = np.concatenate([np.take_along_axis(corner[:, side], np.argsort(faces[:, side], axis=1), 1) for side in sides])
+    own = np.concatenate(
+        [np.take_along_axis(corner[:, side], np.argsort(faces[:, side], axis=1), 1) for side in sides]
+    )
     order = np.lexsort(ends.T)
     ends, own = ends[order], own[order]
     is_same = (ends[1:] == ends[:-1]).all(1)
     left, right = own[:-1][is_same].ravel(), own[1:][is_same].ravel()
     n = len(mesh.corner_vertex)
-    _, fan = connected_components(coo_matrix((np.ones(len(left), bool), (left, right)), (n, n)), directed=False)
+    graph = coo_matrix((np.ones(len(left), bool), (left, right)), (n, n))
+    _, fan = connected_components(graph, directed=False)
     _, first = np.unique(fan, return_index=True)
     return Mesh(mesh.vertices[mesh.corner_vertex[first]], mesh.face_offset, fan.astype(np.int32))
-
