@@ -7,6 +7,8 @@ Nothing is imported here but on registration, so that ``framelet.core`` can be
 used and tested where there is no Blender.
 """
 
+import atexit
+
 
 def register() -> None:
     """Add the operators, settings and panels to Blender."""
@@ -14,11 +16,14 @@ def register() -> None:
 
     operators.register()
     ui.register()
+    # A class that is registered as Python ends keeps Blender 4.5 from ending, and crashes 4.2.
+    atexit.register(unregister)
 
 
 def unregister() -> None:
     """Take away all that `register` added, in reverse order."""
     from . import operators, ui
 
+    atexit.unregister(unregister)
     ui.unregister()
     operators.unregister()

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from ..files.mesh_file import FileError
 from .messages import CommandError, Messages
 
 
@@ -50,6 +51,8 @@ def work_on_each(
     for name, item in items:
         try:
             outcome.done.append((name, work(item)))
+        except FileError:
+            raise  # of the disk, not of the surface
         except ValueError as error:
             outcome.refusals.append((name, str(error)))
     if not outcome.done:

@@ -43,7 +43,9 @@ def target_of(arguments: argparse.Namespace) -> Path:
         raise CommandError("--backup has no effect without --in-place; add it.", USAGE_ERROR)
     if target is None:
         if not arguments.in_place:
-            raise CommandError("There is no OUT; name the file to write, or add --in-place.", USAGE_ERROR)
+            raise CommandError(
+                "There is no OUT; name the file to write, or add --in-place (see --help).", USAGE_ERROR
+            )
         return source
     if arguments.in_place and str(target) != str(source):
         raise CommandError("--in-place replaces IN; leave OUT out.", USAGE_ERROR)

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Enabling and disabling leave nothing behind, and can be repeated."""
 
+import subprocess
+import sys
 from pathlib import Path
 
 import bpy
@@ -63,3 +65,26 @@ def test_operators_are_undoable_and_explained():
         rna = getattr(bpy.ops.object, name).get_rna_type()
         assert rna.name and len(rna.description) > 20, name
     assert bpy.types.OBJECT_OT_framelet_denoise.bl_options == {"REGISTER", "UNDO", "PRESET"}
+
+
+def test_a_script_that_leaves_it_registered_ends(tmp_path):
+    code = f"""
+import importlib.util, sys
+root = {str(ROOT)!r}
+spec = importlib.util.spec_from_file_location(
+    "framelet", root + "/__init__.py", submodule_search_locations=[root]
+)
+package = importlib.util.module_from_spec(spec)
+sys.modules["framelet"] = package
+spec.loader.exec_module(package)
+import bpy
+package.register()
+bpy.ops.wm.read_factory_settings(use_empty=True)
+bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=3)
+print(bpy.ops.object.framelet_denoise(preset="TRI_2"), flush=True)
+"""
+    result = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, timeout=120, encoding="utf-8", check=False
+    )
+    assert result.returncode == 0, result.stderr
+    assert "{'FINISHED'}" in result.stdout

@@ -9,6 +9,7 @@ from framelet.core import BANKS, SurfaceMesh, make_transform
 from framelet.operators.command_line.arguments import as_word
 from framelet.operators.command_line.band_arrays import LAYOUT
 from framelet.operators.command_line.version import framelet_version
+from framelet.operators.files import safe_write
 
 CELL_ARRAYS = {"cell_corners", "cell_owner", "n_quad_cells"}
 ARRAYS = {"vertices", "edges", "corner_vertex", "face_offset", "low", "levels"}
@@ -129,7 +130,7 @@ def test_cells(command, source, grid, tmp_path, frame):
 def test_one_file_for_each_object(command, two_objects, grid, tmp_path):
     result = command("bands", two_objects, "--out", tmp_path / "b.npz")
     assert (result.code, result.err) == (0, "")
-    assert result.out.splitlines()[-1] == f"Wrote {tmp_path / 'b-1.npz'}, {tmp_path / 'b-2.npz'}."
+    assert result.out.splitlines()[-1] == f"Wrote {tmp_path / 'b-1.npz'} and {tmp_path / 'b-2.npz'}."
     assert sorted(path.name for path in tmp_path.iterdir()) == ["b-1.npz", "b-2.npz", "in.obj"]
     first, second = load(tmp_path / "b-1.npz"), load(tmp_path / "b-2.npz")
     assert (str(first["name"]), str(second["name"])) == ("Zebra/1", "Ape")
@@ -194,14 +195,12 @@ def test_missing_files_and_folders(fails, source, tmp_path):
 def test_a_full_disk_leaves_no_trace(fails, two_objects, tmp_path, monkeypatch, n_good):
     done = []
 
-    def savez(file, _save=np.savez, **arrays):
+    def fsync(number):
         if len(done) == n_good:
-            file.write(b"half")
             raise OSError(28, "No space left on device")
-        done.append(file)
-        _save(file, **arrays)
+        done.append(number)
 
-    monkeypatch.setattr(np, "savez", savez)
+    monkeypatch.setattr(safe_write.os, "fsync", fsync)
     (tmp_path / "b-1.npz").write_text("precious")
     sentence = fails("bands", two_objects, "--out", tmp_path / "b.npz")
     assert "could not be written: No space left on device" in sentence

@@ -3,9 +3,16 @@
 
 """Files of Blender in and out: all meshes denoised, everything else intact."""
 
+import signal
+import subprocess
+import time
+from pathlib import Path
+
 import numpy as np
 import pytest
 from framelet.core import PRESETS, SurfaceMesh, denoise
+
+CASES = Path(__file__).resolve().parents[4] / "shared" / "cases" / "reliability"
 
 
 def positions(mesh):
@@ -178,4 +185,79 @@ def test_output_goes_where_the_option_says(command, blend, grid, tmp_path, outpu
 def test_output_needs_a_blend_file(fails, blend, tmp_path):
     sentence = fails("denoise", blend, tmp_path / "out.ply", "--output", "shape-key", code=2)
     assert "--output shape-key needs a .blend file as OUT" in sentence
+    assert not (tmp_path / "out.ply").exists()
+
+
+@pytest.mark.parametrize("suffix", [".fbx", ".usd", ".abc", ".glb"])
+def test_other_files_of_blender(command, grid, tmp_path, suffix):
+    import bpy
+
+    mesh_object("Sheet", grid.used_vertices, grid.faces_of_used)
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "in.blend"))
+    target = tmp_path / f"out{suffix}"
+    result = command("denoise", tmp_path / "in.blend", target, "--preset", "positions")
+    assert result.code == 0, result.err
+    assert target.stat().st_size > 0
+    # And in again, to where every vertex can be looked at.
+    result = command("denoise", target, tmp_path / "again.ply", "--preset", "positions")
+    assert result.code == 0, result.err
+    if suffix != ".glb":  # which has a vertex of its own for each corner of a flat face
+        assert f"{len(grid.used_vertices)} vertices" in result.out
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["again.ply", "in.blend", target.name]
+
+
+def test_a_driver_does_not_keep_the_command_from_ending(command, grid, tmp_path):
+    import bpy
+
+    obj = mesh_object("Sheet", grid.vertices, grid.faces)
+    obj.driver_add("location", 0).driver.expression = "len('abc') * 1.0"
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "in.blend"))
+    began = time.monotonic()
+    assert command("denoise", tmp_path / "in.blend", tmp_path / "out.ply", "--preset", "tri-2").code == 0
+    assert time.monotonic() - began < 60 and (tmp_path / "out.ply").exists()
+
+
+def test_a_blender_that_dies_is_told(fails, grid, tmp_path, monkeypatch):
+    from framelet.operators.command_line import blender_process
+
+    mesh_object("Sheet", grid.vertices, grid.faces)
+    import bpy
+
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "in.blend"))
+    worker = tmp_path / "dies.py"
+    worker.write_text("import os, signal; os.kill(os.getpid(), signal.SIGSEGV)")
+    monkeypatch.setattr(blender_process, "WORKER", worker)
+    sentence = fails("denoise", tmp_path / "in.blend", tmp_path / "out.ply")
+    assert "Blender ended by signal 11 while it worked on" in sentence
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["dies.py", "in.blend"]
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
+def test_signals_end_blender_too(python, launcher, grid, tmp_path, number):
+    import bpy
+
+    big = np.stack(np.meshgrid(np.arange(300.0), np.arange(300.0), [0.0]), axis=-1).reshape(-1, 3)
+    big[:, 2] = np.random.default_rng(1).normal(0, 0.2, len(big))
+    k = np.arange(300 * 300).reshape(300, 300)
+    faces = np.stack((k[:-1, :-1], k[1:, :-1], k[1:, 1:], k[:-1, 1:]), axis=-1).reshape(-1, 4).tolist()
+    mesh_object("Sheet", big, faces)
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "in.blend"))
+    code = launcher + "from framelet.operators.command_line import main\nsys.exit(main())"
+    words = [python, "-c", code, "denoise", tmp_path / "in.blend", tmp_path / "out.ply", "--passes", "6"]
+    process = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8")
+    assert process.stdout.readline().startswith("Read ")
+    process.send_signal(number)
+    _out, err = process.communicate(timeout=60)
+    assert (process.returncode, err) == (128 + number, "framelet: Interrupted; nothing was written.\n")
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["in.blend"]
+
+
+def test_damaged_indices(fails, tmp_path):
+    import gzip
+
+    packed = CASES / "corrupt_indices.blend.gz"
+    if not packed.exists():
+        pytest.skip(f"there is no file {packed}")
+    (tmp_path / "in.blend").write_bytes(gzip.decompress(packed.read_bytes()))
+    fails("denoise", tmp_path / "in.blend", tmp_path / "out.ply", "--preset", "tri-2")
     assert not (tmp_path / "out.ply").exists()

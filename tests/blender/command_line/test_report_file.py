@@ -6,7 +6,6 @@
 import json
 from dataclasses import fields
 
-import bpy
 import numpy as np
 import pytest
 from framelet.core import PRESETS, DenoiseReport, DenoiseSettings, NoiseBelief, SurfaceMesh, denoise
@@ -101,7 +100,7 @@ def test_all_words_on_noise():
 
 def test_versions_and_names(report, tmp_path):
     assert report["framelet"][0].isdigit()
-    assert report["blender"].split(".")[:2] == [str(number) for number in bpy.app.version[:2]]
+    assert report["blender"] is None and report["error"] is None  # PLY files are read without it
     assert report["input"] == str(tmp_path / "in.ply")
     assert report["output"] == str(tmp_path / "out.ply")
 
@@ -133,9 +132,21 @@ def test_skipped_objects(command, grid, write_obj, tmp_path):
 
 
 def test_numbers_json_has_no_words_for():
-    from framelet.operators.command_line.report_file import _plain
+    from framelet.operators.command_line.report_file import plain
 
-    assert _plain({"a": [float("nan"), float("inf"), 1.5], "b": (True, None, "x")}) == {
+    assert plain({"a": [float("nan"), float("inf"), 1.5], "b": (True, None, "x")}) == {
         "a": [None, None, 1.5],
         "b": [True, None, "x"],
     }
+
+
+def test_the_version_of_blender_where_it_was_used(command, grid, write_ply, tmp_path):
+    import bpy
+
+    source = write_ply(tmp_path / "in.ply", grid.vertices, grid.faces)
+    words = ["denoise", source, tmp_path / "out.blend", "--preset", "tri-2", "--report", tmp_path / "r.json"]
+    assert command(*words).code == 0
+    report = json.loads((tmp_path / "r.json").read_text(encoding="utf-8"))
+    assert report["blender"].split(".")[:2] == [str(number) for number in bpy.app.version[:2]]
+    (entry,) = report["objects"]
+    assert list(entry) == ["name", *(item.name for item in fields(DenoiseReport))]
