@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from .heat_map import refresh_heat
+from .mesh_io.coarseness import coarse_step
+from .mesh_io.mesh_bridge import read_positions
 from .preview.targets import names_text
 from .properties.scene_units import LEAST_WIDTH, length_text, noise_text, range_text
 from .reports.filled_reports import fill_estimate_of_run, fill_report
@@ -34,6 +36,19 @@ def report_written(
     fill_report(report, measured)
     fill_estimate_of_run(context.window_manager.framelet_estimate, measured)
     refresh_heat(context, [item.obj for item in written])
+    for item in written:
+        edge = item.measured.report.mean_edge_length
+        step = (
+            coarse_step(read_positions(item.original.data), edge) if item.original.mode == "OBJECT" else 0.0
+        )
+        if step:
+            operator.report(
+                {"WARNING"},
+                rpt_(
+                    "‘{name}’ is far from the origin of its object, where positions come in steps of "
+                    "{edges:.2g} edge lengths; move its vertices there first"
+                ).format(name=item.original.name, edges=step),
+            )
     operator.report(
         {"INFO"},
         rpt_(

@@ -142,7 +142,7 @@ def _denoise(
             reports.append(result.report)
             return result.vertices
 
-        move(opened, part, solve)
+        move(opened, part, messages, solve)
         for line in describe_result(part.name, reports[0]):
             messages.say(line)
         return reports[0]

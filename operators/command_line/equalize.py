@@ -103,7 +103,7 @@ def _equalize(
             moved.append(displacement(surface.vertices, vertices))
             return vertices
 
-        move(opened, part, solve)
+        move(opened, part, messages, solve)
         messages.say(describe_result(part.name, *moved[0]))
 
     work_on_each(arguments.source, opened.parts(), messages, work)

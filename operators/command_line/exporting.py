@@ -64,9 +64,13 @@ def export(
     if kind == ".ply" and any(obj.data.uv_layers for obj in objects):
         messages.warn("A .ply file that Blender writes holds no UV maps here; they were left out.")
     _show_only(objects)
+    if kind == ".obj" and not any(any(obj.data.materials) for obj in objects):
+        plain = {**_PLAIN, "export_materials": False}
+    else:
+        plain = _PLAIN
     for name, options in _EXPORTERS[".usd" if kind.startswith(".usd") else kind]:
         if exists(name):
-            call(name, path, **{**_PLAIN, **options})
+            call(name, path, **{**plain, **options})
             break
 
 

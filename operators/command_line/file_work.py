@@ -65,7 +65,12 @@ def surface_to_work_on(opened: OpenedFile, part: Part) -> SurfaceMesh:
     return surface
 
 
-def move(opened: OpenedFile, part: Part, work: Callable[[SurfaceMesh], NDArray[np.floating]]) -> None:
+def move(
+    opened: OpenedFile,
+    part: Part,
+    messages: Messages,
+    work: Callable[[SurfaceMesh], NDArray[np.floating]],
+) -> None:
     """Move the vertices of a part to where `work` puts them; what it refuses gets the name of the part.
 
     Raises
@@ -74,10 +79,24 @@ def move(opened: OpenedFile, part: Part, work: Callable[[SurfaceMesh], NDArray[n
         With a sentence that names the part.
     """
     surface = surface_to_work_on(opened, part)
+    warn_of_coarseness(opened.source, part.name, surface, messages)
     try:
         opened.positions[part.vertices] = work(surface)
     except ValueError as error:
         raise ValueError(f"‘{part.name}’: {error}") from error
+
+
+def warn_of_coarseness(source: Path, name: str, surface: SurfaceMesh, messages: Messages) -> None:
+    """Warn if the file holds positions in steps that can be seen."""
+    from ...core.mesh.geometry import mean_edge_length
+    from ..mesh_io.coarseness import coarse_step
+
+    step = coarse_step(surface.vertices, mean_edge_length(surface))
+    if step:
+        messages.warn(
+            f"‘{name}’ is far from the origin of {source}, where its positions come in steps of {step:.2g} "
+            "mean edge lengths; write the file with double precision, or closer to the origin."
+        )
 
 
 def region_of(

@@ -10,7 +10,9 @@ from typing import Any
 import bpy
 import numpy as np
 
+from ..mesh_io.mesh_bridge import read_surface
 from .file_types import BLEND, file_type
+from .file_work import warn_of_coarseness
 from .messages import CommandError, Messages
 
 # OBJ files are turned by default; with these axes the formats keep their coordinates.
@@ -62,6 +64,8 @@ def open_source(path: Path, messages: Messages) -> list[bpy.types.Object]:
             with bpy.context.temp_override(object=obj, active_object=obj):
                 bpy.ops.object.mode_set(mode="OBJECT")
         _check_indices(path, obj)
+        if len(obj.data.polygons):
+            warn_of_coarseness(path, obj.name, read_surface(obj), messages)
     return objects
 
 

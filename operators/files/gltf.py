@@ -11,10 +11,8 @@ from __future__ import annotations
 
 import base64
 import json
-from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
 from urllib.parse import unquote
 
 import numpy as np
@@ -24,29 +22,17 @@ from . import json_spans
 from .convert import triangles_of
 from .gltf_buffers import Buffers, Stored, as_count, as_stored, is_file
 from .gltf_container import Container, as_binary
+from .gltf_primitives import FAN, STRIP, TRIANGLES, Primitive, shading, triangles
 from .gltf_scene import placed_meshes
 from .mesh_file import FileError, MeshFile, Part
 from .normals import renewed_normals, renewed_tangents
 from .places import merge_equal
 
-TRIANGLES, STRIP, FAN = 4, 5, 6
 COMPRESSIONS = {
     "KHR_draco_mesh_compression": "Draco",
     "EXT_meshopt_compression": "meshopt",
     "KHR_meshopt_compression": "meshopt",
 }
-
-
-@dataclass(frozen=True, eq=False)
-class Primitive:
-    """A part of a mesh: its mesh, its vertices, its triangles, and where its normals and tangents are."""
-
-    mesh: int
-    vertex: NDArray[np.int64]
-    triangles: NDArray[np.int64]
-    """As numbers of its own elements, shape (T, 3)."""
-    normal: Stored | None
-    tangent: Stored | None
 
 
 class GltfFile(MeshFile):
@@ -111,7 +97,7 @@ class GltfFile(MeshFile):
                     if self._accessors[at].width != 3:
                         raise FileError("Positions have not three coordinates; the file is damaged.")
                 count = len(self._accessors[at].at)
-                found.append((number, attributes, self._triangles(primitive, mode, count)))
+                found.append((number, attributes, triangles(self._buffers, primitive, mode, count)))
         places = [stored.at for stored in self._accessors.values()]
         sizes = np.cumsum([0, *map(len, places)])
         if len(places) == 1 and (np.diff(places[0]) > 0).all():
@@ -134,13 +120,13 @@ class GltfFile(MeshFile):
             Primitive(
                 number,
                 self._vertex[attributes["POSITION"]],
-                triangles,
-                self._shading(attributes, "NORMAL", 3),
-                self._shading(attributes, "TANGENT", 4),
+                corners,
+                shading(self._buffers, attributes, "NORMAL", 3, len(self._vertex[attributes["POSITION"]])),
+                shading(self._buffers, attributes, "TANGENT", 4, len(self._vertex[attributes["POSITION"]])),
             )
-            for number, attributes, triangles in found
+            for number, attributes, corners in found
         ]
-        self._names = {name for _number, attributes, _triangles in found for name in attributes}
+        self._names = {name for _number, attributes, _corners in found for name in attributes}
         corners = [each.vertex[each.triangles].reshape(-1) for each in self._primitives]
         self.corner_vertex = np.concatenate(corners) if corners else np.zeros(0, np.int64)
         self.face_offset = np.arange(0, len(self.corner_vertex) + 1, 3)
@@ -148,38 +134,6 @@ class GltfFile(MeshFile):
             self.warnings.append(
                 "Positions are stored as whole numbers, so that the result is rounded to them."
             )
-
-    def _shading(self, attributes: dict[str, Any], name: str, width: int) -> Stored | None:
-        """Return where the normals or tangents of a primitive are; None if it has none."""
-        if name not in attributes:
-            return None
-        stored = self._buffers.stored(attributes[name])
-        if stored.width != width or len(stored.at) != len(self._vertex[attributes["POSITION"]]):
-            raise FileError(f"A primitive has not one {name} for each position; the file is damaged.")
-        return stored
-
-    def _triangles(self, primitive: dict[str, Any], mode: int, count: int) -> NDArray[np.int64]:
-        """Return the triangles of a primitive as numbers of its elements, shape (T, 3)."""
-        if "indices" in primitive:
-            stored = self._buffers.stored(primitive["indices"])
-            if stored.width != 1 or stored.dtype.kind != "u":
-                raise FileError("The indices of a primitive are no whole numbers; the file is damaged.")
-            corners = self._buffers.numbers(stored.at, stored.dtype, 1).reshape(-1).astype(np.int64)
-        else:
-            corners = np.arange(count)
-        if len(corners) and corners.max() >= count:
-            raise FileError(
-                f"A triangle names vertex {corners.max()}, but there are {count}; the file is damaged."
-            )
-        if mode == TRIANGLES:
-            return corners[: len(corners) // 3 * 3].reshape(-1, 3)
-        if len(corners) < 3:
-            return np.zeros((0, 3), np.int64)
-        if mode == FAN:
-            return triangles_of(np.array([0, len(corners)]), corners)
-        rows = np.stack((corners[:-2], corners[1:-1], corners[2:]), axis=1)
-        rows[1::2] = rows[1::2, [1, 0, 2]]
-        return rows
 
     def _find_extras(self) -> None:
         names = self._names - {"POSITION"}

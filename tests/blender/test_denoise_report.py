@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from blender_objects import noisy_monkey, read, select_only
 from framelet.core import PRESETS, NoiseBelief, denoise, estimate_noise
+from framelet.core.mesh.geometry import mean_edge_length
 from framelet.operators import denoise_report
 from framelet.operators.mesh_io import mesh_bridge
 from framelet.operators.properties.scene_units import range_text
@@ -253,3 +254,14 @@ def test_the_choice_of_noise_reaches_the_engine(make_object, rng):
         assert last_report().iterations == 1
         results.append(expected.tobytes())
     assert len(set(results)) == 3
+
+
+def test_a_mesh_far_from_its_origin_is_told(capfd):
+    obj = noisy_monkey()
+    mesh_bridge.show_positions(obj.data, read(obj) + np.float32(2e5))
+    capfd.readouterr()
+    edge = mean_edge_length(mesh_bridge.read_surface(obj))
+    assert bpy.ops.object.framelet_denoise(preset="TRI_2", lambda_=0) == {"FINISHED"}
+    words = capfd.readouterr()
+    found = re.search(r"positions come in steps of (\S+) edge lengths", words.out + words.err)
+    assert float(found[1]) == pytest.approx(2**-6 / edge, rel=0.05)

@@ -320,3 +320,20 @@ def test_bands_and_equalize_without_blender(command, source, tmp_path):
         target = tmp_path / f"out-{name}"
         assert command("equalize", tmp_path / name, target, "--gains", "0").code == 0
         assert target.stat().st_size > 0 and target.read_bytes() != (tmp_path / name).read_bytes()
+
+
+@pytest.mark.parametrize(("coordinate", "is_coarse"), [("float", True), ("double", False)])
+def test_coarse_positions_are_told(command, tmp_path, coordinate, is_coarse):
+    points, faces = sheet()
+    kind = "f4" if coordinate == "float" else "f8"
+    head = (
+        f"ply\nformat binary_little_endian 1.0\nelement vertex {len(points)}\nproperty {coordinate} x\n"
+        f"property {coordinate} y\nproperty {coordinate} z\nelement face {len(faces)}\n"
+        "property list uchar int vertex_indices\nend_header\n"
+    )
+    rows = np.zeros(len(faces), [("n", "u1"), ("v", "<i4", 3)])
+    rows["n"], rows["v"] = 3, faces
+    (tmp_path / "in.ply").write_bytes(head.encode() + (points + 3e6).astype(kind).tobytes() + rows.tobytes())
+    result = command("denoise", tmp_path / "in.ply", tmp_path / "out.ply", *QUICK)
+    assert result.code == 0
+    assert ("in steps of 0.2" in result.err) == is_coarse

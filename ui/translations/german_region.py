@@ -126,6 +126,9 @@ TEXTS = {
     ),
     "; noise {noise}": "; Rauschen {noise}",
     "; used {what}": "; verwendet: {what}",
+    "‘{name}’ is far from the origin of its object, where positions come in steps of {edges:.2g} edge lengths; "
+    "move its vertices there first": "‘{name}’ liegt weit vom Ursprung seines Objekts, wo Positionen in Schritten "
+    "von {edges:.2g} Kantenlängen liegen; verschieben Sie zuerst die Punkte dorthin",
     "; clean already": "; schon sauber",
     "; Strength is 0": "; Stärke ist 0",
     "; noise {lengths} ({edges} edge lengths)": "; Rauschen {lengths} ({edges} Kantenlängen)",
