@@ -54,7 +54,7 @@ def renewed_normals(
     n_groups = int(group.max()) + 1 if n else 0
     corners = positions[triangles]
     areas = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    has_moved = moved[triangles].any(axis=1)
+    has_moved: NDArray[np.bool_] = np.asarray(moved[triangles].any(axis=1))
     total = np.zeros((n_groups, 3))
     is_new = np.zeros(n_groups, bool)
     for column in corner_normal.T:

@@ -76,7 +76,7 @@ class BinaryLayout:
 
     def _walked(self, element: Element, sizes: list[int], begin: int) -> Table:
         """Find the values of elements whose lists have different lengths, one element after the other."""
-        fixed, steps = [], []
+        steps: list[tuple[int, struct.Struct, int]] = []
         before = 0
         for each, size in zip(element.properties, sizes, strict=True):
             if each.count_kind:

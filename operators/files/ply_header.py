@@ -87,8 +87,8 @@ def read_header(data: bytes) -> tuple[str, list[Element], int]:
             order = _ORDERS[words[1]]
         elif words[0] == "element" and len(words) == 3 and words[2].isdigit() and len(words[2]) < 16:
             elements.append(Element(words[1], int(words[2])))
-        elif words[0] == "property" and elements and _property(words) is not None:
-            elements[-1].properties.append(_property(words))
+        elif words[0] == "property" and elements and (found := _property(words)) is not None:
+            elements[-1].properties.append(found)
         else:
             raise FileError(f"The line {text.shown(line.encode())} of the PLY header cannot be understood.")
     if order is None:

@@ -152,9 +152,14 @@ class TextLayout:
         words = np.stack(places, axis=1)[moved]
         order = np.argsort(words[0])
         words, rows = words[:, order].reshape(-1), np.asarray(after[moved], np.float64)[:, order]
-        start = self._start[words]
-        stop = text.word_stops(self._letters)[words]
-        style = text.style_of_words(self._letters, start, stop, before, 0 if "f8" in kinds else 9)
+        # Only what lies between the first and the last of the words is looked at.
+        first, last = int(words[0]), int(words[-1])
+        begin = int(self._start[first])
+        end = int(self._start[last + 1]) if last + 1 < len(self._start) else len(self._letters)
+        letters = self._letters[begin:end]
+        start = self._start[words] - begin
+        stop = text.word_stops(letters)[words - first]
+        style = text.style_of_words(letters, start, stop, before, 0 if "f8" in kinds else 9)
         new, lengths = text.as_text(rows.reshape(-1), style)
-        body = text.replaced(self._letters, start, stop, new, lengths)
-        return self._data[: self._begin] + body.tobytes()
+        middle = text.replaced(letters, start, stop, new, lengths).tobytes()
+        return b"".join((self._data[: self._begin + begin], middle, self._data[self._begin + end :]))

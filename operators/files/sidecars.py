@@ -46,7 +46,7 @@ def write_sidecars(
     FileError
         If a buffer would overwrite a file that does not belong to the target.
     """
-    warnings = []
+    warnings: list[str] = []
     buffers = file.side_files(positions)
     if isinstance(file, GltfFile) and buffers:
         file.renames = _new_names(list(buffers), source, target)

@@ -63,7 +63,9 @@ class StlFile(MeshFile):
     def _read_text(self) -> NDArray[np.float64]:
         """Return the corners of all triangles, shape (3 n, 3)."""
         self.precision = np.dtype(np.float64)
-        corners, normals, n_loops = [], [], 0
+        corners: list[NDArray[np.float64]] = []
+        normals: list[NDArray[np.float64]] = []
+        n_loops = 0
         for block in text.blocks(self._data):
             for keyword, rows in zip(_NAMES, (corners, normals), strict=True):
                 rows.append(_rows(block, keyword))
@@ -85,10 +87,10 @@ class StlFile(MeshFile):
             return self._data
         after = np.asarray(positions, np.float64)[self._vertex]
         is_moved = moved[self._vertex]
-        of_triangle = is_moved.reshape(-1, 3).any(axis=1)
+        of_triangle: NDArray[np.bool_] = np.asarray(is_moved.reshape(-1, 3).any(axis=1))
         # Zeros say that a reader is to compute them.
         of_normal = of_triangle & (self._normals != 0.0).any(axis=1)
-        normals = _normals(after.reshape(-1, 3, 3))
+        new_normals = _normals(after.reshape(-1, 3, 3))
         if not self._is_text:
             data = bytearray(self._data)
             triangles = np.ndarray(len(of_triangle), TRIANGLE, data, HEAD)
@@ -96,9 +98,9 @@ class StlFile(MeshFile):
             corners[of_triangle] = np.where(
                 is_moved.reshape(-1, 3, 1), after.reshape(-1, 3, 3).astype(np.float32), corners
             )[of_triangle]
-            triangles["normal"][of_normal] = normals[of_normal]
+            triangles["normal"][of_normal] = new_normals[of_normal]
             return bytes(data)
-        return self._patched_text(after, is_moved, normals, of_normal)
+        return self._patched_text(after, is_moved, new_normals, of_normal)
 
     def _patched_text(
         self,
