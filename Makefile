@@ -50,8 +50,12 @@ format: ## Format the code and fix what ruff can fix
 	$(ENVIRONMENT) run core -- -m ruff format
 
 .PHONY: test-core
-test-core: ## Test core/ and the release rules on plain Python and NumPy
-	$(ENVIRONMENT) run core --timeout $(TIMEOUT) -- $(PYTEST) tests/core tests/release tests/benchmarks
+test-core: ## Test core/, files and the release rules on plain Python and NumPy
+	$(ENVIRONMENT) run core --timeout $(TIMEOUT) -- $(PYTEST) tests/core tests/files tests/release tests/benchmarks
+
+.PHONY: fuzz
+fuzz: ## Read 5,000 damaged files
+	FRAMELET_FUZZ=5000 $(ENVIRONMENT) run core --timeout $(TIMEOUT) -- $(PYTEST) tests/files/test_fuzz.py
 
 .PHONY: test-training
 test-training: ## Train for a minute, and test the training
