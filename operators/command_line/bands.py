@@ -8,7 +8,7 @@ import argparse
 import io
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ...core.settings import DenoiseSettings
 from ..files.safe_write import Outputs, check_target
@@ -156,9 +156,9 @@ def analyzed(
         arrays = band_arrays(surface, settings, max_megabytes)
     except ValueError as error:
         raise ValueError(f"‘{name}’: {error}") from error
-    arrays |= {"name": np.array(name), "version": np.array(framelet_version())}
+    named: dict[str, Any] = arrays | {"name": np.array(name), "version": np.array(framelet_version())}
     file = io.BytesIO()
-    np.savez(file, **arrays)
+    np.savez(file, **named)
     return file.getvalue(), _describe(name, arrays)
 
 

@@ -85,7 +85,7 @@ def _command_line() -> list[str]:
     """Return how Blender is started: the application we are in, or the module of this Python."""
     bpy = sys.modules.get("bpy")
     binary = getattr(getattr(bpy, "app", None), "binary_path", "")
-    if binary and not getattr(bpy.app, "module", False):
+    if bpy is not None and binary and not getattr(bpy.app, "module", False):
         return [binary, "--background", "--factory-startup", "--python", str(WORKER), "--"]
     try:
         is_there = importlib.util.find_spec("bpy") is not None

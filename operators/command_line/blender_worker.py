@@ -23,7 +23,7 @@ def work() -> int:
     package = importlib.util.module_from_spec(spec)
     sys.modules["framelet"] = package
     spec.loader.exec_module(package)
-    from framelet.operators.command_line import blender_jobs  # type: ignore[import-not-found]
+    from framelet.operators.command_line import blender_jobs
 
     job = json.loads(Path(sys.argv[-1]).read_text("ascii"))
     return blender_jobs.carry_out(job)

@@ -99,7 +99,8 @@ def _equalize(
         moved: list[tuple[float, float]] = []
 
         def solve(surface: SurfaceMesh) -> NDArray[np.floating]:
-            vertices = equalize(surface, arguments.gains, **options)
+            frame, stencil, boundary = (options[name] for name in FRAME_OPTIONS)
+            vertices = equalize(surface, arguments.gains, frame=frame, stencil=stencil, boundary=boundary)
             moved.append(displacement(surface.vertices, vertices))
             return vertices
 

@@ -44,7 +44,7 @@ class ObjFile(MeshFile):
         n_vertices = 0
         for block in text.blocks(self._text):
             is_vertex = block.with_keyword(b"v")
-            before: NDArray[np.int64] = np.cumsum(is_vertex) - is_vertex + n_vertices
+            before: NDArray[np.int64] = np.asarray(np.cumsum(is_vertex) - is_vertex + n_vertices)
             rows.append(_coordinates(block, is_vertex))
             n_vertices += int(is_vertex.sum())
             is_face, is_line = block.with_keyword(b"f"), block.with_keyword(b"l")

@@ -5,7 +5,7 @@
     python3 .ci/environment.py run speed -- tests/benchmarks/files/run.py --update
 
 Each run is a process of its own, one after the other; of three the best one counts. `--update` puts the table
-into docs/files.md.
+into docs/scripts/files.md.
 """
 
 import argparse
@@ -19,7 +19,7 @@ import numpy as np
 
 FOLDER = Path(__file__).resolve().parent
 ROOT = FOLDER.parents[2]
-PAGE = ROOT / "docs" / "files.md"
+PAGE = ROOT / "docs" / "scripts" / "files.md"
 BEGIN, END = "<!-- table -->\n", "<!-- end of table -->\n"
 PROGRAMS = ("framelet", "blender", "trimesh")
 FILES = {
@@ -38,7 +38,7 @@ def main():
     parser.add_argument("--side", type=int, default=1000, help="vertices along each side of the sheet")
     parser.add_argument("--repeats", type=int, default=3)
     parser.add_argument("--python", action="append", default=[], metavar="PROGRAM=PYTHON")
-    parser.add_argument("--update", action="store_true", help="put the table into docs/files.md")
+    parser.add_argument("--update", action="store_true", help="put the table into docs/scripts/files.md")
     arguments = parser.parse_args()
     pythons = dict(word.split("=", 1) for word in arguments.python)
     with tempfile.TemporaryDirectory() as folder:
