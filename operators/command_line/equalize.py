@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from ...core.settings import DenoiseSettings
 from ..files.safe_write import Outputs
 from .arguments import HelpFormatter, add_frame_options
-from .file_work import move, open_source, write_target
+from .file_work import move, open_source, weld_of, write_target
 from .mesh_work import work_on_each
 from .messages import Messages
 from .targets import add_target_arguments, check_files, publish, target_of
@@ -100,7 +100,11 @@ def _equalize(
 
         def solve(surface: SurfaceMesh) -> NDArray[np.floating]:
             frame, stencil, boundary = (options[name] for name in FRAME_OPTIONS)
-            vertices = equalize(surface, arguments.gains, frame=frame, stencil=stencil, boundary=boundary)
+            weld = weld_of(opened, surface)
+            worked = surface if weld is None else weld.surface
+            vertices = equalize(worked, arguments.gains, frame=frame, stencil=stencil, boundary=boundary)
+            if weld is not None:
+                vertices = vertices[weld.vertex]
             moved.append(displacement(surface.vertices, vertices))
             return vertices
 

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ...core import Region, SurfaceMesh
+    from ...core.mesh.weld import Weld
     from ..files import MeshFile, Part
     from ..files.safe_write import Outputs
     from ..properties.region_options import RegionOptions
@@ -116,7 +117,6 @@ def region_of(
 
     from ...core.mesh.checks import check_positions
     from ...core.mesh.geometry import mean_edge_length
-    from ..files.surface import border_is_split
 
     check_positions(surface)
     weights = None
@@ -127,10 +127,33 @@ def region_of(
         weights = weights[part.vertices]
     edge = mean_edge_length(surface) if options.limit == "EDGES" else 0.0
     region = options.region(edge, 1.0, weights)
-    if not options.weld and (opened.file.always_welded or border_is_split(surface)):
+    if not options.weld and is_split(opened, surface):
         region = replace(region, weld_distance=0.0)
     movable = opened.file.movable()
     return None if movable is None else movable[part.vertices], region
+
+
+def is_split(opened: OpenedFile, surface: SurfaceMesh) -> bool:
+    """Return whether vertices at the same place are one vertex that the file had to split."""
+    from ..files.surface import border_is_split
+
+    return opened.file.always_welded or border_is_split(surface)
+
+
+def weld_of(opened: OpenedFile, surface: SurfaceMesh) -> Weld | None:
+    """Return a mesh in which vertices that the file had to split are one again; None if there are none.
+
+    Raises
+    ------
+    ValueError
+        In one sentence, if the mesh cannot be worked on.
+    """
+    from ...core.mesh.checks import check_positions
+    from ...core.mesh.weld import make_weld
+
+    check_positions(surface)
+    weld = make_weld(surface, 0.0) if is_split(opened, surface) else None
+    return weld if weld is not None and weld.n_merged else None
 
 
 def write_target(opened: OpenedFile, target: Path, outputs: Outputs, messages: Messages) -> None:

@@ -197,14 +197,13 @@ class GltfFile(MeshFile):
 
     def side_files(self, positions: NDArray[np.floating]) -> dict[str, bytes]:
         """Return the buffers that are files of their own and hold coordinates; see `MeshFile.side_files`."""
+        names = {number: self._uris[number] or "" for number in self._changing_buffers()}
+        names = {number: uri for number, uri in names.items() if uri and is_file(uri)}
+        if not names:
+            return {}
         content, _bounds = self._changed(positions)
-        found = {}
-        for number in self._changing_buffers():
-            uri = self._uris[number]
-            if uri is not None and is_file(uri):
-                begin, end = self._buffer_begin[number], self._buffer_begin[number + 1]
-                found[uri] = content[begin:end].tobytes()
-        return found
+        begin = self._buffer_begin
+        return {uri: content[begin[number] : begin[number + 1]].tobytes() for number, uri in names.items()}
 
     def patched(self, positions: NDArray[np.floating]) -> bytes:
         """See `MeshFile.patched`; bounds, normals and tangents follow."""

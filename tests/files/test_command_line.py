@@ -320,6 +320,10 @@ def test_bands_and_equalize_without_blender(command, source, tmp_path):
         target = tmp_path / f"out-{name}"
         assert command("equalize", tmp_path / name, target, "--gains", "0").code == 0
         assert target.stat().st_size > 0 and target.read_bytes() != (tmp_path / name).read_bytes()
+    # Vertices that the format had to split stay together.
+    before, after = open_file(tmp_path / "in.glb"), open_file(tmp_path / "out-in.glb")
+    n_places = len(np.unique(before.positions, axis=0))
+    assert n_places < len(before.positions) and len(np.unique(after.positions, axis=0)) == n_places
 
 
 @pytest.mark.parametrize(("coordinate", "is_coarse"), [("float", True), ("double", False)])
