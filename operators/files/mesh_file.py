@@ -10,13 +10,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ...core.errors import FrameletError
+
 if TYPE_CHECKING:
     from pathlib import Path
 
     from numpy.typing import NDArray
 
 
-class FileError(ValueError):
+class FileError(FrameletError):
     """Why a file cannot be read or written, in one sentence for people.
 
     Examples

@@ -59,7 +59,7 @@ def surface_of(file: MeshFile, part: Part) -> SurfaceMesh:
     corner, offset = _without_repeats(corner, offset)
     corner, offset = _without_doubles(corner, offset)
     corner_edge, edges = _number_edges(corner, offset, loose, n)
-    return SurfaceMesh(
+    return SurfaceMesh.trusted(
         np.ascontiguousarray(vertices, file.precision),
         corner.astype(np.int32),
         corner_edge.astype(np.int32),
@@ -133,26 +133,21 @@ def _number_edges(
     Edges are numbered as Blender numbers those of a small mesh, so that results have the same bits: by the
     first corner before which they lie.
     """
+    from ...core.mesh.edge_list import find_edges
+
     following = _next_corner(offset)
     before = np.empty_like(following)
     before[following] = np.arange(len(following))
-    low, high = np.minimum(corner, corner[before]), np.maximum(corner, corner[before])
-    key = low * n_vertices + high  # of the edge from the corner before
-    loose = np.sort(loose[loose[:, 0] != loose[:, 1]], axis=1)
-    key = np.concatenate((key, loose[:, 0] * n_vertices + loose[:, 1]))
-    if not len(key):
-        return np.zeros(0, np.int64), np.zeros((0, 2), np.int64)
-    order = np.argsort(key)
-    is_new = np.append(True, np.diff(key[order]) != 0)
-    group = np.empty(len(key), np.int64)
-    group[order] = np.cumsum(is_new) - 1
-    first = np.minimum.reduceat(order, np.flatnonzero(is_new))
-    is_first = np.zeros(len(key), bool)
-    is_first[first] = True
-    rank = np.cumsum(is_first) - 1
-    edge = rank[first][group]
-    edges = np.stack(np.divmod(key[is_first], n_vertices), axis=1)
-    return edge[: len(corner)][following], edges
+    loose = loose[loose[:, 0] != loose[:, 1]]
+    edges, corner_edge = find_edges(corner, corner[following], loose, n_vertices)
+    # Of all that is written to one place the last one stays: here the first.
+    seen = corner_edge[before]
+    first = np.full(len(edges), len(seen), np.int64)
+    first[seen[::-1]] = np.arange(len(seen))[::-1]
+    order = np.argsort(first, kind="stable")
+    number = np.empty(len(edges), np.int64)
+    number[order] = np.arange(len(edges))
+    return number[corner_edge], edges[order].astype(np.int64)
 
 
 def border_is_split(surface: SurfaceMesh) -> bool:
