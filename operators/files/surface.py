@@ -109,10 +109,11 @@ def _without_doubles(
         # Faces that come twice have the same sums; few others have.
         mixed = (rows.astype(np.uint64) * np.uint64(0x9E3779B97F4A7C15)) ** 2
         key = mixed.sum(axis=1, dtype=np.uint64)
+        ascending = np.sort(key)  # several times faster than to sort places, and mostly enough
+        if not (ascending[1:] == ascending[:-1]).any():
+            continue
         order = np.argsort(key)
         is_same = key[order[1:]] == key[order[:-1]]
-        if not is_same.any():
-            continue
         near = np.zeros(len(key), bool)
         near[order[1:][is_same]] = near[order[:-1][is_same]] = True
         doubtful = np.flatnonzero(near)
