@@ -105,10 +105,18 @@ def _without_doubles(
     is_kept = np.ones(len(sizes), bool)
     for size in np.unique(sizes).tolist():
         faces = np.flatnonzero(sizes == size)
-        rows = corner[offset[faces][:, None] + np.arange(size)]
+        if len(faces) == len(sizes):
+            rows = corner.reshape(-1, size)
+        else:
+            rows = corner[offset[faces][:, None] + np.arange(size)]
         # Faces that come twice have the same sums; few others have.
-        mixed = (rows.astype(np.uint64) * np.uint64(0x9E3779B97F4A7C15)) ** 2
-        key = mixed.sum(axis=1, dtype=np.uint64)
+        key = np.zeros(len(rows), np.uint64)
+        for column in rows.T:
+            mixed = column.astype(np.uint64) * np.uint64(0x9E3779B97F4A7C15)
+            mixed ^= mixed >> np.uint64(32)  # or sums of squares would be equal, and all sums of multiples
+            mixed *= np.uint64(0xC2B2AE3D27D4EB4F)
+            mixed ^= mixed >> np.uint64(29)
+            key += mixed
         ascending = np.sort(key)  # several times faster than to sort places, and mostly enough
         if not (ascending[1:] == ascending[:-1]).any():
             continue
