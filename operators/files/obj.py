@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+import codecs
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -32,6 +34,8 @@ class ObjFile(MeshFile):
         self._text = data
         if b"\\" in data:
             self._text = data.replace(b"\\\r\n", b"   ").replace(b"\\\n", b"  ")
+        if data.startswith(codecs.BOM_UTF8):
+            self._text = b"   " + self._text[3:]
         self.precision = np.dtype(np.float64)
         self._objects: list[tuple[str, int, int]] = []  # name, first face, first line
         self._groups: list[tuple[frozenset[str], int]] = []  # names, first face

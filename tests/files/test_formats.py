@@ -111,6 +111,19 @@ def test_obj(command, tmp_path, newline):
     assert file.weights("second").sum() > file.weights("first").sum() > 0 and file.weights("third") is None
 
 
+@pytest.mark.parametrize("begin", [b"", b"\xef\xbb\xbf", b"  "])
+@pytest.mark.parametrize("newline", [b"\n", b"\r\n", b"\r"])
+def test_obj_line_ends_and_beginnings(tmp_path, begin, newline):
+    content = begin + newline.join([b"v 0 0 0", b"v 1 0 0", b"v 0 1 0", b"f 1 2 3"])
+    (tmp_path / "in.obj").write_bytes(content)
+    file = open_file(tmp_path / "in.obj")
+    assert file.positions.tolist() == [[0, 0, 0], [1, 0, 0], [0, 1, 0]] and file.n_faces == 1
+    moved = file.positions.copy()
+    moved[1, 0] += 0.5
+    after = file.patched(moved)
+    assert after == content.replace(b"v 1 0 0", b"v 1.50000000 0.00000000 0.00000000")
+
+
 @pytest.mark.parametrize("make", [full_stl_text, full_stl_binary])
 def test_stl(command, tmp_path, make):
     source = tmp_path / "in.stl"
