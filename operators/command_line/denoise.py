@@ -22,7 +22,7 @@ from .arguments import (
     settings_from,
 )
 from .file_types import BLEND, check_source, file_type
-from .mesh_work import check_blender, count, describe_input, work_on_meshes
+from .mesh_work import Outcome, check_blender, count, describe_input, work_on_meshes
 from .messages import USAGE_ERROR, CommandError, Messages
 from .region_arguments import add_region_options, region_options_from
 from .staging import Staging, check_folder
@@ -33,7 +33,6 @@ if TYPE_CHECKING:
     from ...core import NoiseBelief, NoiseEstimate
     from ...core.report import DenoiseReport
     from .importing import Surfaces
-    from .mesh_work import Outcome
 
 
 def add_command(subparsers: argparse._SubParsersAction) -> None:
@@ -146,6 +145,9 @@ def _denoise(
     """Denoise each mesh and say what was done."""
     from ..run.denoise_object import denoise_object
 
+    if options.together:
+        return _denoise_together(source, surfaces, settings, options, output, messages)
+
     def work(obj: bpy.types.Object) -> DenoiseReport:
         with messages.progress(f"Denoising {obj.name}") as callback:
             report = denoise_object(obj, settings, callback, output, options)
@@ -154,6 +156,36 @@ def _denoise(
         return report
 
     return work_on_meshes(source, surfaces, messages, work)
+
+
+def _denoise_together(
+    source: Path,
+    surfaces: Surfaces,
+    settings: DenoiseSettings,
+    options: RegionOptions,
+    output: str,
+    messages: Messages,
+) -> Outcome:
+    """Denoise all meshes as one surface, and say what was done."""
+    from ..run.denoise_run import State, begin_run
+
+    objects = list({obj.data: obj for obj in reversed(surfaces.objects)}.values())[::-1]
+    try:
+        run = begin_run(objects, settings, output, options)
+    except ValueError as error:
+        raise CommandError(f"{source}: {error}") from error
+    with messages.progress(run.text) as callback:
+        run.run_here(lambda fraction: callback(fraction, 0.0))
+    if run.state is not State.READY:
+        raise CommandError(f"{source}: {run.reason}")
+    done = [(item.original, item.measured.report) for item in run.finish()]
+    for obj, report in done:
+        for line in _describe_result(obj.name, report):
+            messages.say(line)
+    left = [obj for obj in objects if obj not in [each for each, _ in done]]
+    for reason in run.failures:
+        messages.warn(f"{reason} It was skipped.")
+    return Outcome(done, list(zip(left, run.failures, strict=True)))
 
 
 def _describe_result(name: str, report: DenoiseReport) -> list[str]:
