@@ -9,7 +9,7 @@ from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from .mesh_io import mesh_bridge
-from .modifier.attributes import write_numbers
+from .modifier.attributes import read_numbers, write_numbers
 from .modifier.inputs import set_input
 from .modifier.node_groups import MASK
 from .modifier.offsets import KINDS, apply_modifier, has_modifier, remove_modifier
@@ -128,7 +128,7 @@ def take_sculpt_mask(obj: bpy.types.Object) -> None:
         reason = f"‘{obj.name}’ has no mask of Sculpt Mode; paint one, or choose a vertex group."
     if reason is not None:
         raise ValueError(reason)
-    write_numbers(obj.data, COPIED_MASK, 1.0 - mesh_bridge.read_vertex_values(obj, SCULPT_MASK))
+    write_numbers(obj.data, COPIED_MASK, 1.0 - read_numbers(obj, SCULPT_MASK))
     for kind in KINDS:
         modifier = find_modifier(obj, kind)
         if modifier is not None:

@@ -175,7 +175,11 @@ def _denoise_together(
     except ValueError as error:
         raise CommandError(f"{source}: {error}") from error
     with messages.progress(run.text) as callback:
-        run.run_here(lambda fraction: callback(fraction, 0.0))
+
+        def show(fraction: float) -> None:
+            callback(fraction, 0.0)
+
+        run.run_here(show)
     if run.state is not State.READY:
         raise CommandError(f"{source}: {run.reason}")
     done = [(item.original, item.measured.report) for item in run.finish()]

@@ -104,7 +104,7 @@ def _put_back(
     ours, present = shown[is_ours].astype(np.float64), now[is_ours].astype(np.float64)
     if np.array_equal(ours, present):
         # With the original's own bits. It has zeros for the others, which stay.
-        return np.where(is_ours[:, None], original, now)
+        return np.where(np.expand_dims(is_ours, 1), original, now)
     source, target = ours - ours.mean(axis=0), present - present.mean(axis=0)
     linear = _linear_map(source, target)
     deviation = np.abs(source @ linear.T - target).max()

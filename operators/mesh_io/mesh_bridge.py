@@ -27,9 +27,6 @@ if TYPE_CHECKING:
     from ...core import SurfaceMesh
 
 
-_DTYPES = {"FLOAT": "float32", "INT": "int32", "BOOLEAN": "bool"}
-
-
 def kind_refusal(obj: bpy.types.Object | None) -> str | None:
     """Say in one sentence why an object has no mesh; None if it has one."""
     if obj is None:
@@ -58,17 +55,6 @@ def ownership_refusal(obj: bpy.types.Object | None) -> str | None:
             "make it local first (Object > Relations > Make Local)."
         )
     return None
-
-
-def multires_refusal(obj: bpy.types.Object) -> str | None:
-    """Say in one sentence that the sculpted shape of an object is not its mesh; None if it is."""
-    levels = max((item.total_levels for item in obj.modifiers if item.type == "MULTIRES"), default=0)
-    if not levels:
-        return None
-    return (
-        f"‘{obj.name}’ has a Multires modifier, whose sculpted shape is not the mesh that Framelet reads; "
-        "apply the modifier, or denoise a copy made by Object > Convert > Mesh with Keep Original."
-    )
 
 
 def faces_refusal(obj: bpy.types.Object) -> str | None:
@@ -332,17 +318,6 @@ def read_flag(mesh: bpy.types.Mesh, name: str) -> NDArray[np.bool_]:
     if attribute is not None:
         attribute.data.foreach_get("value", values)
     return values
-
-
-def read_vertex_values(obj: bpy.types.Object, name: str) -> NDArray[np.float32]:
-    """Read an attribute of numbers at the vertices of an object's mesh, shape (N,)."""
-    import numpy as np
-
-    with readable_mesh(obj) as mesh:
-        attribute = mesh.attributes[name]
-        values = np.empty(len(mesh.vertices), _DTYPES[attribute.data_type])
-        attribute.data.foreach_get("value", values)
-    return values.astype(np.float32)
 
 
 def read_edge_values(mesh: bpy.types.Mesh, name: str, dtype: str) -> NDArray:

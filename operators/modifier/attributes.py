@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import bmesh
 
+from ..mesh_io import mesh_bridge
 from ..mesh_io.band_storage import topology_fingerprint
 
 if TYPE_CHECKING:
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ...core import SurfaceMesh
+
+_DTYPES = {"FLOAT": "float32", "INT": "int32", "BOOLEAN": "bool"}
 
 CAGE = "framelet_cage"
 """The custom property with fingerprints of the mesh to which the vectors belong."""
@@ -56,6 +59,17 @@ def read_vectors(mesh: bpy.types.Mesh, name: str) -> NDArray[np.float32]:
     if attribute is not None and (attribute.data_type, attribute.domain) == ("FLOAT_VECTOR", "POINT"):
         attribute.data.foreach_get("vector", vectors.reshape(-1))
     return vectors
+
+
+def read_numbers(obj: bpy.types.Object, name: str) -> NDArray[np.float32]:
+    """Read an attribute of numbers at the vertices of an object's mesh, shape (N,)."""
+    import numpy as np
+
+    with mesh_bridge.readable_mesh(obj) as mesh:
+        attribute = mesh.attributes[name]
+        values = np.empty(len(mesh.vertices), _DTYPES[attribute.data_type])
+        attribute.data.foreach_get("value", values)
+    return values.astype(np.float32)
 
 
 def write_numbers(mesh: bpy.types.Mesh, name: str, numbers: NDArray[np.floating]) -> None:

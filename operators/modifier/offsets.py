@@ -72,6 +72,7 @@ def apply_modifier(obj: bpy.types.Object, kind: str) -> None:
     if reason is not None:
         raise ValueError(reason)
     offset = offset_of(obj, kind)
+    assert offset is not None  # `_missing` has looked
     surface = mesh_bridge.read_surface(obj)
     normals = custom_normals.read_normals(obj.data)
     positions = mesh_bridge.write_vertices(obj, surface, surface.vertices + offset)
@@ -130,4 +131,4 @@ def _mask(obj: bpy.types.Object, name: str) -> NDArray[np.float32] | None:
             f"The mask ‘{name}’ of ‘{obj.name}’ is not numbers at the vertices; choose a vertex group or an "
             "attribute that is."
         )
-    return mesh_bridge.read_vertex_values(obj, name)
+    return attributes.read_numbers(obj, name)

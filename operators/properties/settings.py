@@ -108,7 +108,7 @@ def _output_property(default: str) -> Any:
     return bpy.props.EnumProperty(
         name="Output",
         description="Where the denoised surface goes",
-        items=_items("output", [tuple(choice) for choice in OUTPUTS]),
+        items=_items("output", OUTPUTS),
         default=default,
         options=set(),
     )

@@ -142,7 +142,10 @@ def assemble(jobs: Sequence[DenoiseJob]) -> Assembly:
     placements: list[Placement] = []
     members, weldable = [], []
     for job in jobs:
-        linear, origin = (np.eye(3), np.zeros(3)) if len(jobs) == 1 else (job.linear, job.origin)
+        linear, origin = np.eye(3), np.zeros(3)
+        if len(jobs) > 1:
+            assert job.origin is not None  # `read_job` has set it
+            linear, origin = job.linear, job.origin
         border = border_vertices(job.surface)
         surface, seams = _on_planes(job.surface, job.mirrors, border)
         start = sum(each.surface.n_vertices for each in placements)

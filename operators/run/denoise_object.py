@@ -106,6 +106,7 @@ def _with_kept_parts(obj: bpy.types.Object, job: DenoiseJob) -> DenoiseJob:
     if modifier is None or stays is None:
         return job
     added = stored_displacement(obj) if job.output == MODIFIER else offset_of(obj, DISPLACEMENT)
+    assert added is not None  # there is a modifier
     vertices = job.surface.vertices.copy()
     vertices[stays] += added[stays]
     return replace(job, surface=job.surface.with_vertices(vertices), cage=job.surface)

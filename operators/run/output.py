@@ -12,6 +12,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..mesh_io import custom_normals, mesh_bridge
 from ..modifier import displacement
+from ..modifier.multires import multires_refusal
 from ..modifier.offsets import remove_modifier
 from ..modifier.recipes import DISPLACEMENT
 from ..modifier.stack import find_modifier
@@ -50,7 +51,7 @@ def refusal(obj: bpy.types.Object, output: str) -> str | None:
     output : str
         One of `output_choices.OUTPUTS`.
     """
-    reason = mesh_bridge.kind_refusal(obj) or mesh_bridge.multires_refusal(obj)
+    reason = mesh_bridge.kind_refusal(obj) or multires_refusal(obj)
     if reason is not None:
         return reason
     if output == IN_PLACE:
