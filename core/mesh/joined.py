@@ -63,7 +63,7 @@ def joined(placements: Sequence[Placement]) -> SurfaceMesh:
         n_vertices += surface.n_vertices
         n_edges += surface.n_edges
     offset = np.concatenate(([0], np.cumsum(np.concatenate(sizes))))
-    return SurfaceMesh(
+    return SurfaceMesh.trusted(
         np.concatenate(vertices),
         np.concatenate(corners).astype(np.int32),
         np.concatenate(corner_edges).astype(np.int32),
