@@ -69,34 +69,117 @@ def equalize(
     As the transform is linear, S' - S is the inverse transform of {(g_j - 1) high_j, 0}; it is added to the
     positions, so that nothing is lost where gains are 1.
     """
-    weights = None if weights is None else np.asarray(weights, np.float64)
-    _check(gains, weights, surface.n_vertices)
-    edge = check_surface(surface)
-    with Blocks(threads) as blocks:
-        connectivity = connectivity or connect(surface, blocks)
-        normalized = normalize(surface, connectivity, edge)
-        transform = make_transform(
-            surface.with_vertices(normalized),
-            choose_frame(frame, connectivity),
-            stencil,
-            len(gains),
-            boundary=boundary,
-            connectivity=connectivity,
-            blocks=blocks,
-            dtype=dtype,
-            only_used_bands=True,
-        )
-        coefficients = transform.analyze(normalized).scaled([gain - 1.0 for gain in gains])
-        change = transform.synthesize(coefficients.without_low()).T.astype(np.float64)
-    settings = DenoiseSettings(method="POSITIONS", boundary=boundary)
-    constraints = find_constraints(surface, connectivity, settings, None, change.dtype)
-    constraints.apply(change, np.zeros_like(change))
-    if weights is not None:
-        change *= weights
-    return displaced(surface.vertices, change, np.zeros_like(change), edge)
+    check_gains(gains, None if weights is None else np.asarray(weights), surface.n_vertices)
+    equalizer = Equalizer(
+        surface,
+        len(gains),
+        frame=frame,
+        stencil=stencil,
+        boundary=boundary,
+        connectivity=connectivity,
+        threads=threads,
+        dtype=dtype,
+    )
+    return equalizer.equalized(gains, weights=weights)
 
 
-def _check(gains: Sequence[float], weights: NDArray[np.floating] | None, n_vertices: int) -> None:
+class Equalizer:
+    """The levels of one surface, for many gains: what takes time is done once.
+
+    Parameters
+    ----------
+    surface : SurfaceMesh
+        The surface; its positions are copied.
+    n_levels : int
+        Number of levels.
+    frame, stencil, boundary, connectivity, threads, dtype
+        See `equalize`.
+
+    Raises
+    ------
+    FrameletError
+        In one sentence, if the frame does not fit the mesh, or the mesh is too small for so many levels.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from framelet.core import SurfaceMesh
+    >>> from framelet.core.equalizer import Equalizer, equalize
+    >>> points = [[0, 0, 0.1], [1, 0, 0], [1, 1, 0], [0, 1, 0], [2, 0, 0], [2, 1, 0.2]]
+    >>> mesh = SurfaceMesh.from_faces(points, [(0, 1, 2, 3), (1, 4, 5, 2)])
+    >>> equalizer = Equalizer(mesh, 1)
+    >>> bool(np.allclose(equalizer.equalized([0.5]), equalize(mesh, [0.5])))
+    True
+    >>> half = mesh.vertices - 0.5 * equalizer.details()[0]
+    >>> bool(np.allclose(half, equalizer.equalized([0.5]), atol=1e-6))
+    True
+    """
+
+    def __init__(
+        self,
+        surface: SurfaceMesh,
+        n_levels: int,
+        *,
+        frame: str = "AUTO",
+        stencil: str = "STRAIGHT",
+        boundary: str = "ALONG",
+        connectivity: Connectivity | None = None,
+        threads: int = 0,
+        dtype: DTypeLike = np.float32,
+    ) -> None:
+        self.n_levels = n_levels
+        self._vertices = surface.vertices.copy()
+        self._edge = check_surface(surface)
+        self._blocks = Blocks(threads)
+        with self._blocks as blocks:
+            connectivity = connectivity or connect(surface, blocks)
+            normalized = normalize(surface, connectivity, self._edge)
+            transform = make_transform(
+                surface.with_vertices(normalized),
+                choose_frame(frame, connectivity),
+                stencil,
+                n_levels,
+                boundary=boundary,
+                connectivity=connectivity,
+                blocks=blocks,
+                dtype=dtype,
+                only_used_bands=True,
+            )
+            self._coefficients = transform.analyze(normalized)
+        settings = DenoiseSettings(method="POSITIONS", boundary=boundary)
+        self._constraints = find_constraints(surface, connectivity, settings, None, np.dtype(np.float64))
+
+    def equalized(self, gains: Sequence[float], *, weights: ArrayLike | None = None) -> NDArray[np.floating]:
+        """Return the positions, shape (N, 3), with a gain for each level, finest first; see `equalize`."""
+        shares = None if weights is None else np.asarray(weights, np.float64)
+        check_gains(gains, shares, len(self._vertices))
+        if len(gains) != self.n_levels:
+            raise SettingError(f"There are {len(gains)} gains for {self.n_levels} levels; give one for each.")
+        change = self._change([gain - 1.0 for gain in gains])
+        if shares is not None:
+            change *= shares
+        return displaced(self._vertices, change, np.zeros_like(change), self._edge)
+
+    def details(self) -> list[NDArray[np.float64]]:
+        """Return what each level adds to the surface, finest first, shape (N, 3) each, in its unit.
+
+        With gains g the positions are those of the surface plus the sum of (g - 1) times these.
+        """
+        choices = np.eye(self.n_levels)
+        return [np.ascontiguousarray(self._edge * self._change(list(choice)).T) for choice in choices]
+
+    def _change(self, factors: Sequence[float]) -> NDArray[np.float64]:
+        """Return the sum of all levels times factors, shape (3, N), in mean edge lengths."""
+        coefficients = self._coefficients.scaled(factors)
+        with self._blocks:
+            transform = coefficients.transform
+            change = transform.synthesize(coefficients.without_low()).T.astype(np.float64)
+        # The rule for borders is linear, so that it can be applied to each level alone.
+        self._constraints.apply(change, np.zeros_like(change))
+        return change
+
+
+def check_gains(gains: Sequence[float], weights: NDArray[np.floating] | None, n_vertices: int) -> None:
     """Raise SettingError unless gains and weights can be used."""
     if not len(gains):
         raise SettingError("There are no gains; give one for each level, finest first.")

@@ -9,6 +9,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from .bands.bands import analyze_object, clear_object, megabytes_text
 from .colors.viewport import hide_unused_colors
 from .mesh_io import band_storage
+from .modifier import offsets
 from .preview import targets
 from .properties.band_settings import StoreMixin
 from .properties.setting_values import as_typed
@@ -50,7 +51,7 @@ class OBJECT_OT_framelet_analyze(FrameMixin, LevelsMixin, StoreMixin, bpy.types.
 
 
 class OBJECT_OT_framelet_clear(bpy.types.Operator):
-    """Remove all that Framelet stored on the selected meshes: bands, colors, and the noise"""
+    """Remove all that Framelet stored on the selected meshes: bands, colors, the noise, and modifiers"""
 
     bl_idname = "object.framelet_clear"
     bl_label = "Clear Bands"
@@ -61,7 +62,8 @@ class OBJECT_OT_framelet_clear(bpy.types.Operator):
         """Ask for a selected mesh with something to remove, in Object Mode."""
         reason = targets.poll_reason(context, in_object_mode=True)
         if reason is None and not any(
-            band_storage.has_traces(obj.data) for obj in targets.target_objects(context)
+            band_storage.has_traces(obj.data) or offsets.has_traces(obj.data)
+            for obj in targets.target_objects(context)
         ):
             reason = n_("The selected meshes have nothing to remove")
         return targets.allows(cls, reason)

@@ -17,6 +17,17 @@ class OBJECT_OT_framelet_before_after(bpy.types.Operator):
     bl_label = "Before/After"
     bl_options = {"REGISTER", "UNDO"}
 
+    side: bpy.props.EnumProperty(
+        name="Show",
+        description="Which side of the last run is shown",
+        items=[
+            ("TOGGLE", "The Other", "The side that is not shown now"),
+            ("BEFORE", "Before", "Where the vertices were before the run"),
+            ("AFTER", "After", "Where the run moved them"),
+        ],
+        options={"SKIP_SAVE"},
+    )
+
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Ask for a selected mesh that was denoised, in Object Mode or Edit Mode."""
@@ -26,8 +37,8 @@ class OBJECT_OT_framelet_before_after(bpy.types.Operator):
         return targets.allows(cls, reason)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        """Flip every target that was denoised; the first one says to which side."""
-        wanted: list[bool] = []
+        """Turn every target that was denoised to one side, which the first one gives if none is asked for."""
+        wanted: list[bool] = [] if self.side == "TOGGLE" else [self.side == "AFTER"]
 
         def turn(obj: bpy.types.Object, _progress: targets.Progress) -> bool:
             is_after = run_memory.recall(obj).is_after

@@ -7,18 +7,20 @@ from __future__ import annotations
 import bpy
 from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
+from bpy.app.translations import pgettext_tip as tip_
 
 from .denoise_report import report_written
 from .preview import targets
 from .preview.current_preview import end_preview
 from .properties.region_settings import RegionMixin
-from .properties.region_values import shown_region_names, to_region_options
-from .properties.setting_values import PROPERTY_NAMES, all_values, fill, has_effect, is_replaced, to_settings
+from .properties.region_values import as_typed, to_region_options
+from .properties.setting_values import all_values, fill, to_settings
 from .properties.settings import OutputMixin, SettingsMixin
 from .properties.unused_values import unused_sentences
 from .run.current_run import IS_RUNNING, current_run, set_current
 from .run.denoise_run import DenoiseRun, State, begin_run
 from .run.run_display import RunDisplay
+from .window_events import cancels, is_mesh_being_read
 
 TICK = 0.05
 """Seconds between two looks at a run."""
@@ -33,29 +35,42 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, RegionMixin, bpy.ty
     bl_label = "Denoise"
     bl_options = {"REGISTER", "UNDO", "PRESET"}
 
+    from_original: bpy.props.BoolProperty(
+        name="From the Original",
+        description="Where a mesh still is what the last run made, start from where its vertices were before",
+        options={"SKIP_SAVE"},
+    )
+
+    @classmethod
+    def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
+        """Say what the button does that goes on from a result."""
+        if properties.is_property_set("from_original") and not properties.from_original:
+            return tip_("Continue from the result: denoise once more what the last run made")
+        return ""
+
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Ask for a selected mesh, in Object Mode or Edit Mode, and for no run that is going on."""
         return targets.allows(cls, IS_RUNNING if current_run() else targets.poll_reason(context))
 
     def draw(self, _context: bpy.types.Context) -> None:
-        """Show, when adjusting the last operation, the settings that the method uses."""
+        """Show, when adjusting the last operation, what is changed at once: how much is written, and where.
+
+        Blender stands still while it runs an operator again. The settings are in the sidebar, whose button
+        runs again from the original and leaves Blender usable.
+        """
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
-        for name in PROPERTY_NAMES:
-            if has_effect(self.method, name):
-                row = layout.row()
-                row.active = not is_replaced(self.method, self.tuning, name)
-                row.prop(self, name)
+        layout.prop(self, "amount")
         layout.prop(self, "output")
-        for name in shown_region_names(self):
-            layout.prop(self, name)
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         """Start the run on a thread and stay in charge of it; without a window, run at once."""
         if bpy.app.background or context.window is None:
             return self.execute(context)
+        if not self.properties.is_property_set("from_original"):
+            self.from_original = True
         if not self._begin(context):
             return {"CANCELLED"}
         self._timer = context.window_manager.event_timer_add(TICK, window=context.window)
@@ -69,11 +84,12 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, RegionMixin, bpy.ty
         return {"RUNNING_MODAL"}
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Look at the run at each tick; Esc and the right mouse button cancel, all else is Blender's."""
+        """Look at the run at each tick; Esc and a right click in the view cancel, all else is Blender's."""
         try:
-            if event.type in {"ESC", "RIGHTMOUSE"} and event.value == "PRESS":
+            if cancels(context, event):
                 self._run.cancel()
-            state = self._run.tick()
+            # The last tick and the writing after it belong together.
+            state = self._run.state if is_mesh_being_read() else self._run.tick()
             if state is State.RUNNING:
                 self._display.update(context)
                 return {"PASS_THROUGH"}
@@ -115,9 +131,16 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, RegionMixin, bpy.ty
         # The panel for adjusting the last operation shows the values that were used, defaults included.
         fill(self, all_values(self))
         end_preview()
+        if self.options.is_repeat:
+            context.scene.framelet.amount, context.scene.framelet.output = self.amount, self.output
         try:
             self._run: DenoiseRun = begin_run(
-                targets.target_objects(context), settings, self.output, to_region_options(self)
+                targets.target_objects(context),
+                settings,
+                self.output,
+                to_region_options(self),
+                amount=as_typed(self.amount),
+                from_original=self.from_original,
             )
             set_current(self._run)
         except ValueError as error:

@@ -62,7 +62,8 @@ def report_written(
             edges=report.displacement_rms_edges,
             seconds=report.seconds,
         )
-        + _noise_words(context.scene, report),
+        + _noise_words(context.scene, report)
+        + "".join(f"; {note}" for note in dict.fromkeys(item.note for item in written) if note),
     )
 
 

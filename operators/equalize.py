@@ -9,6 +9,8 @@ from collections.abc import Sequence
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
+from .bands.live_equalizer import make_live
+from .bands.transforms import equalizer_of
 from .mesh_io import mesh_bridge
 from .preview import targets
 from .properties.band_settings import EQUALIZER_NAMES, GAIN_NAMES, EqualizerMixin
@@ -57,7 +59,7 @@ def equalize_object(
         raise ValueError(reason)
     import numpy as np
 
-    from ..core import equalize
+    from ..core.equalizer import check_gains
 
     surface, movable = mesh_bridge.read_surface_and_movable(obj)
     if movable is not None and not movable.any():
@@ -68,11 +70,50 @@ def equalize_object(
         group = 1.0 - group if invert else group
         weights = group if weights is None else weights * group
     try:
-        vertices = equalize(surface, gains, frame=frame, stencil=stencil, boundary=boundary, weights=weights)
+        check_gains(gains, weights, surface.n_vertices)
+        equalizer = equalizer_of(surface, len(gains), frame, stencil, boundary)
+        vertices = equalizer.equalized(gains, weights=weights)
     except ValueError as error:
         raise ValueError(f"‘{obj.name}’: {error}") from error
     mesh_bridge.write_vertices(obj, surface, vertices)
     return displacement_in_scene(obj, surface.vertices, vertices)
+
+
+class OBJECT_OT_framelet_live_equalizer(FrameMixin, EqualizerMixin, bpy.types.Operator):
+    """Store the scales of the selected meshes, and turn them up and down by the sliders of a modifier"""
+
+    bl_idname = "object.framelet_live_equalizer"
+    bl_label = "Live Equalizer"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Ask for a selected mesh, in Object Mode."""
+        return targets.allows(cls, targets.poll_reason(context, in_object_mode=True))
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        """Show, when adjusting the last operation, what is stored; the gains are those of the modifier."""
+        layout = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        for name in ("levels", "frame", "stencil", "boundary"):
+            layout.prop(self, name)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Store the scales of every target."""
+        gains = [as_typed(getattr(self, name)) for name in GAIN_NAMES[: self.levels]]
+        done = targets.run_on_targets(
+            self,
+            context,
+            lambda obj, _progress: make_live(
+                obj, gains, self.frame, self.stencil, self.boundary, self.vertex_group
+            ),
+        )
+        if not done:
+            return {"CANCELLED"}
+        text = rpt_("The levels of {names} are sliders of a modifier now")
+        self.report({"INFO"}, text.format(names=targets.names_text(list(done))))
+        return {"FINISHED"}
 
 
 class OBJECT_OT_framelet_equalize(FrameMixin, EqualizerMixin, bpy.types.Operator):

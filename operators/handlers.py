@@ -7,12 +7,15 @@ from __future__ import annotations
 import bpy
 from bpy.app.handlers import persistent
 
+from .bands.transforms import forget_transforms
 from .mesh_io import kept_original
+from .modifier.cage import forget_cages
 from .preview import current_preview
 from .properties.setting_values import replace_lost
-from .run.current_run import current_run, drop_current, stop_current, touch_current
+from .run.current_run import drop_current, stop_current, touch_current
+from .run.outcome_memory import forget_outcomes
 from .run.preparations import forget_preparations
-from .run.run_memory import forget_runs
+from .run.run_memory import forget_runs, forget_sides
 
 
 @persistent
@@ -25,6 +28,8 @@ def _before_undo(*_: object) -> None:
 @persistent
 def _after_undo(*_: object) -> None:
     """Go on with a preview."""
+    forget_cages()
+    forget_sides()
     current_preview.after_undo()
 
 
@@ -35,6 +40,9 @@ def _before_load(*_: object) -> None:
     current_preview.leave_preview()
     forget_preparations()
     forget_runs()
+    forget_outcomes()
+    forget_transforms()
+    forget_cages()
 
 
 @persistent
@@ -51,6 +59,7 @@ def _before_save(*_: object) -> None:
     session = current_preview.current_preview()
     if session is not None:
         session.suspend()
+    kept_original.put_all_back()
 
 
 @persistent
@@ -64,10 +73,12 @@ def _after_save(*_: object) -> None:
 @persistent
 def _after_update(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     """Have a run or a preview look in detail at meshes that may have been edited."""
-    session = current_preview.current_preview()
-    if (current_run() is None and session is None) or not depsgraph.id_type_updated("MESH"):
+    if not depsgraph.id_type_updated("MESH"):
         return
+    session = current_preview.current_preview()
     touched = {update.id.original.session_uid for update in depsgraph.updates if update.is_updated_geometry}
+    forget_cages(touched)
+    forget_sides(touched)
     touch_current(touched)
     if session is not None:
         session.touch(touched)
@@ -100,4 +111,6 @@ def unregister() -> None:
     stop_current()
     current_preview.stop_preview()
     forget_preparations()
+    forget_outcomes()
+    forget_transforms()
     forget_runs()

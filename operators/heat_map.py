@@ -63,7 +63,7 @@ def refresh_heat(context: bpy.types.Context, objects: Iterable[bpy.types.Object]
     if shown.quantity not in QUANTITIES or not colored:
         return
     if any(obj.mode != "OBJECT" or not run_memory.is_remembered(obj) for obj in colored):
-        shown.names = ""
+        shown.objects.clear()
         return
     found = {obj.name: heat_values(obj, shown.quantity) for obj in colored}
     limit = _heat_limit(context.scene.framelet_heat_map, found, shown.quantity)

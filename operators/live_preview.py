@@ -11,6 +11,7 @@ from .denoise_report import report_written
 from .preview import targets
 from .preview.current_preview import current_preview, end_preview, start_preview
 from .run.current_run import IS_RUNNING, current_run
+from .window_events import cancels
 
 
 class OBJECT_OT_framelet_preview(bpy.types.Operator):
@@ -44,12 +45,12 @@ class OBJECT_OT_framelet_preview(bpy.types.Operator):
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
 
-    def modal(self, _context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """End with Esc or with the preview; everything else is Blender's."""
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """End with Esc in a 3D View or with the preview; everything else is Blender's."""
         session = current_preview()
         if session is None:
             return {"FINISHED", "PASS_THROUGH"}
-        if event.type == "ESC" and event.value == "PRESS":
+        if event.type == "ESC" and cancels(context, event):
             end_preview()
             return {"FINISHED"}
         return {"PASS_THROUGH"}

@@ -6,7 +6,7 @@ import bpy
 from bpy.utils import register_classes_factory
 
 from ..core.processors import use_processors
-from . import handlers
+from . import edit_modifier, handlers
 from .add_noise import OBJECT_OT_framelet_add_noise
 from .analyze import OBJECT_OT_framelet_analyze, OBJECT_OT_framelet_clear
 from .before_after import OBJECT_OT_framelet_before_after
@@ -14,7 +14,7 @@ from .colors.heat_settings import FrameletHeatMap
 from .command_line import blender_command
 from .compare import OBJECT_OT_framelet_compare
 from .denoise import OBJECT_OT_framelet_cancel, OBJECT_OT_framelet_denoise
-from .equalize import OBJECT_OT_framelet_equalize
+from .equalize import OBJECT_OT_framelet_equalize, OBJECT_OT_framelet_live_equalizer
 from .estimate_noise import OBJECT_OT_framelet_estimate_noise
 from .heat_map import OBJECT_OT_framelet_heat_map, OBJECT_OT_framelet_hide_colors
 from .live_preview import OBJECT_OT_framelet_apply_preview, OBJECT_OT_framelet_preview
@@ -27,6 +27,7 @@ from .reports.report import (
     FrameletBandRange,
     FrameletComparison,
     FrameletEstimate,
+    FrameletName,
     FrameletNoise,
     FrameletReport,
 )
@@ -39,6 +40,7 @@ classes = (
     FrameletEstimate,
     FrameletReport,
     FrameletComparison,
+    FrameletName,
     FrameletBandRange,
     FrameletBands,
     FrameletEqualizer,
@@ -55,10 +57,12 @@ classes = (
     OBJECT_OT_framelet_synthesize,
     OBJECT_OT_framelet_clear,
     OBJECT_OT_framelet_equalize,
+    OBJECT_OT_framelet_live_equalizer,
     OBJECT_OT_framelet_before_after,
     OBJECT_OT_framelet_heat_map,
     OBJECT_OT_framelet_hide_colors,
     OBJECT_OT_framelet_preset_add,
+    *edit_modifier.classes,
 )
 
 POINTERS = (

@@ -26,7 +26,8 @@ class Layout:
         self.record["menu"].append(name)
 
     def prop(self, data, name, **_options):
-        assert name in data.bl_rna.properties
+        # A custom property of Blender's is drawn by its key.
+        assert name in data.bl_rna.properties or name[2:-2] in data
         self.record["prop"].append(name)
         if not self.active:
             self.record["grayed"].append(name)
@@ -39,7 +40,7 @@ class Layout:
         assert collection in source.bl_rna.properties
         self.prop(data, name)
 
-    def label(self, text="", icon="NONE"):
+    def label(self, text="", icon="NONE", translate=True):
         self.record["label"].append(text)
         if not self.active:
             self.record["grayed"].append(text)

@@ -57,7 +57,7 @@ def expected_for(surface, settings):
 
 def assert_clean(mesh):
     """No trace of a preview is left."""
-    assert kept_original.ORIGINAL not in mesh.attributes and kept_original.COUNT not in mesh
+    assert not any(name in mesh.attributes for name in kept_original.NAMES) and not mesh.keys()
 
 
 def same(first, second):

@@ -36,6 +36,9 @@ AVERAGE = 0.998
 LESS_RELIEF = 0.4
 """Share of the draws of organic shapes that are left out: with more, all that is wide is taken for relief."""
 
+SCANS = 2
+"""How often range images are drawn for once that others are: what scanners make is what has to be right."""
+
 TOLD = 0.6
 """Share of the draws where the net is told how wide the noise is."""
 
@@ -202,6 +205,7 @@ def train(
             group["lr"] = current
         if step % 200 == 0:
             paths = [path for path in sorted(shapes.glob("*.npz")) if int(path.stem) % 20]
+            paths += [path for path in paths if family_of(int(path.stem)) == "scanned"] * (SCANS - 1)
         path = paths[rng.integers(len(paths))]
         if family_of(int(path.stem)) == "organic" and rng.random() < LESS_RELIEF:
             continue

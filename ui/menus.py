@@ -17,7 +17,12 @@ from ..operators.before_after import OBJECT_OT_framelet_before_after
 from ..operators.colors.heat_settings import HEAT_NAMES
 from ..operators.compare import OBJECT_OT_framelet_compare
 from ..operators.denoise import OBJECT_OT_framelet_denoise
-from ..operators.equalize import OBJECT_OT_framelet_equalize
+from ..operators.edit_modifier import (
+    OBJECT_OT_framelet_apply_modifier,
+    OBJECT_OT_framelet_remove_modifier,
+    OBJECT_OT_framelet_sculpt_mask,
+)
+from ..operators.equalize import OBJECT_OT_framelet_equalize, OBJECT_OT_framelet_live_equalizer
 from ..operators.estimate_noise import OBJECT_OT_framelet_estimate_noise
 from ..operators.heat_map import OBJECT_OT_framelet_heat_map, OBJECT_OT_framelet_hide_colors
 from ..operators.properties.band_settings import EQUALIZER_NAMES, SHOW_NAMES
@@ -43,6 +48,9 @@ class VIEW3D_MT_framelet(bpy.types.Menu):
         operator = layout.operator(OBJECT_OT_framelet_denoise.bl_idname, icon="MOD_SMOOTH")
         copy_settings(scene.framelet, operator)
         layout.operator(OBJECT_OT_framelet_before_after.bl_idname)
+        layout.operator(OBJECT_OT_framelet_apply_modifier.bl_idname)
+        layout.operator(OBJECT_OT_framelet_remove_modifier.bl_idname)
+        layout.operator(OBJECT_OT_framelet_sculpt_mask.bl_idname)
         layout.separator()
         for quantity, text, _ in chain.from_iterable(BUTTONS):
             operator = layout.operator(OBJECT_OT_framelet_heat_map.bl_idname, text=text)
@@ -50,9 +58,10 @@ class VIEW3D_MT_framelet(bpy.types.Menu):
             copy_values(scene.framelet_heat_map, operator, HEAT_NAMES)
         layout.operator(OBJECT_OT_framelet_hide_colors.bl_idname)
         layout.separator()
-        operator = layout.operator(OBJECT_OT_framelet_equalize.bl_idname)
-        copy_frame_settings(scene.framelet, operator, ("frame", "stencil", "boundary"))
-        copy_values(scene.framelet_equalizer, operator, EQUALIZER_NAMES)
+        for each in (OBJECT_OT_framelet_equalize, OBJECT_OT_framelet_live_equalizer):
+            operator = layout.operator(each.bl_idname)
+            copy_frame_settings(scene.framelet, operator, ("frame", "stencil", "boundary"))
+            copy_values(scene.framelet_equalizer, operator, EQUALIZER_NAMES)
         operator = layout.operator(OBJECT_OT_framelet_analyze.bl_idname)
         copy_frame_settings(scene.framelet, operator)
         copy_values(scene.framelet_bands, operator, ("max_megabytes",))

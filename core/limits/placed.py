@@ -131,9 +131,9 @@ def place(region: Region, surface: SurfaceMesh, movable: NDArray[np.bool_] | Non
         edges = np.asarray(edges)
         edges = edges if len(edges) else None
     weld = None
-    if region.weld_distance is not None:
+    if region.weld_distance is not None and (region.weldable is None or region.weldable.any()):
         check_positions(surface)
-        weld = make_weld(surface, region.weld_distance)
+        weld = make_weld(surface, region.weld_distance, region.weldable)
         # Without a vertex to merge nothing has to be translated; faces may be gone all the same.
         weld = weld if weld.n_merged else None
     worked = surface

@@ -34,6 +34,8 @@ class Region:
     weld_distance : float or None
         Vertices at most so far apart, in the unit of the mesh, are one vertex for the work, and move
         together; 0 for those at the same place, None for no welding.
+    weldable : ndarray, shape (N,), bool, or None
+        Vertices that may be welded, as those of borders; None for all.
     repair_folds : bool
         Whether motions that fold faces are taken back.
 
@@ -49,6 +51,7 @@ class Region:
     along_normals: bool = False
     keep_volume: bool = False
     weld_distance: float | None = None
+    weldable: NDArray[np.bool_] | None = None
     repair_folds: bool = True
 
     def __post_init__(self) -> None:
@@ -66,6 +69,14 @@ class Region:
                     f"The feature edges are {edges.dtype} of shape {edges.shape}; expected whole numbers of "
                     "shape (E, 2), two vertices for each edge."
                 )
+        if self.weldable is not None:
+            mask = np.asarray(self.weldable)
+            object.__setattr__(self, "weldable", mask)
+            if mask.ndim != 1 or mask.dtype != bool:
+                raise RegionError(
+                    f"The mask of weldable vertices is {mask.dtype} of shape {mask.shape}; expected one "
+                    "truth value a vertex."
+                )
         _check_length("largest displacement", self.max_displacement)
         _check_length("weld distance", self.weld_distance)
 
@@ -78,6 +89,11 @@ class Region:
                 )
             if not np.any(self.weights):
                 raise RegionError("All weights are 0, so that no vertex may move; give some a larger weight.")
+        if self.weldable is not None and len(self.weldable) != n_vertices:
+            raise RegionError(
+                f"The mask of weldable vertices has {len(self.weldable)} entries for {n_vertices} vertices; "
+                "give one for each."
+            )
         edges = self.feature_edges
         if edges is not None and np.size(edges) and (np.min(edges) < 0 or np.max(edges) >= n_vertices):
             wrong = int(np.min(edges)) if np.min(edges) < 0 else int(np.max(edges))

@@ -45,7 +45,7 @@ class Weld:
         return np.minimum.reduceat(values[order], begin)
 
 
-def make_weld(surface: SurfaceMesh, distance: float) -> Weld:
+def make_weld(surface: SurfaceMesh, distance: float, weldable: NDArray[np.bool_] | None = None) -> Weld:
     """Weld the vertices of a mesh by position.
 
     Parameters
@@ -54,6 +54,8 @@ def make_weld(surface: SurfaceMesh, distance: float) -> Weld:
         A mesh with finite positions; not modified.
     distance : float
         Vertices at most so far apart are welded, and whoever is welded to one of them; 0 for the same place.
+    weldable : ndarray, shape (N,), bool, optional
+        Vertices that may be welded; all by default.
 
     Returns
     -------
@@ -65,9 +67,7 @@ def make_weld(surface: SurfaceMesh, distance: float) -> Weld:
     RegionError
         In one sentence, if no face is left.
     """
-    groups = same_places(surface.vertices)
-    if distance > 0.0:
-        groups = _first_numbers(_linked(surface.vertices, groups, distance))
+    groups = _groups(surface.vertices, distance, weldable)
     n_welded = int(groups.max()) + 1 if len(groups) else 0
     counts = np.bincount(groups, minlength=n_welded)
     first = np.full(n_welded, surface.n_vertices, np.int64)
@@ -86,6 +86,24 @@ def make_weld(surface: SurfaceMesh, distance: float) -> Weld:
     loose = groups[surface.edges[is_loose]]
     loose = loose[loose[:, 0] != loose[:, 1]]
     return Weld(_with_edges(vertices, *faces, loose), groups, kept)
+
+
+def _groups(
+    vertices: NDArray[np.floating], distance: float, weldable: NDArray[np.bool_] | None
+) -> NDArray[np.int64]:
+    """Return of which welded vertex each vertex becomes a part, shape (N,), numbered by the first ones."""
+    if weldable is not None:
+        some = np.flatnonzero(weldable)
+        own = _groups(vertices[some], distance, None)
+        groups = np.arange(len(vertices))
+        if len(own) == 0 or own.max() + 1 == len(own):
+            return groups
+        groups[some] = some[np.unique(own, return_index=True)[1]][own]
+        return _first_numbers(groups)
+    groups = same_places(vertices)
+    if distance > 0.0:
+        groups = _first_numbers(_linked(vertices, groups, distance))
+    return groups
 
 
 def same_places(vertices: NDArray[np.floating]) -> NDArray[np.int64]:

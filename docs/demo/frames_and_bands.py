@@ -14,9 +14,9 @@ from checkout import ROOT, load_framelet
 load_framelet()
 
 import framelet  # noqa: E402
-from framelet.operators.command_line.blender_output import captured_output  # noqa: E402
 from meshes import copy_object, make_monkey  # noqa: E402
 from picture import Column, render_picture  # noqa: E402
+from quiet import without_output  # noqa: E402
 
 IMAGES = ROOT / "docs" / "images"
 N_LEVELS = 3
@@ -33,7 +33,7 @@ def main() -> int:
     bpy.ops.wm.read_factory_settings(use_empty=True)
     framelet.register()
     try:
-        with captured_output():
+        with without_output():
             monkey = make_monkey("Monkey")
             render_picture(show_bands(monkey), IMAGES / "bands.webp")
             render_picture(equalized(monkey), IMAGES / "equalizer.webp")

@@ -14,10 +14,10 @@ from checkout import ROOT, load_framelet
 load_framelet()
 
 from framelet.core import PRESETS, SurfaceMesh, add_noise, compare, denoise  # noqa: E402
-from framelet.operators.command_line.blender_output import captured_output  # noqa: E402
 from framelet.operators.mesh_io import mesh_bridge  # noqa: E402
 from meshes import copy_with_vertices, make_monkey  # noqa: E402
 from picture import Column, View, render_picture  # noqa: E402
+from quiet import without_output  # noqa: E402
 
 IMAGES = ROOT / "docs" / "images"
 SIGMA = 0.2
@@ -34,7 +34,7 @@ VIEWS = (View((0.07, 0.0, -0.02), 2.82, 230), View((0.25, -0.7, 0.2), 1.0, 230))
 def main() -> int:
     """Render both strips and return the exit code."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
-    with captured_output():
+    with without_output():
         monkey = make_monkey("Monkey")
     clean = mesh_bridge.read_surface(monkey)
     noisy = clean.with_vertices(add_noise(clean, SIGMA, 0))
@@ -56,7 +56,7 @@ def render(monkey: bpy.types.Object, clean: SurfaceMesh, noisy: SurfaceMesh, row
         columns.append(Column(copy_with_vertices(monkey, title, result.vertices), title, caption))
         moved = result.report.displacement_rms / result.report.mean_edge_length
         print(f"{title}: {caption}; moved {moved:.3f} edge lengths.", flush=True)
-    with captured_output():
+    with without_output():
         render_picture(columns, IMAGES / name, VIEWS)
     print(f"Wrote {name} to {IMAGES}.", flush=True)
 

@@ -16,11 +16,11 @@ from checkout import ROOT, load_framelet
 load_framelet()
 
 from framelet.core import PRESETS, SurfaceMesh, add_noise, compare, denoise  # noqa: E402
-from framelet.operators.command_line.blender_output import captured_output  # noqa: E402
 from framelet.operators.mesh_io import mesh_bridge  # noqa: E402
 from meshes import copy_with_vertices, make_monkey  # noqa: E402
 from models import bone, bracket, make_carved_monkey, make_quad_monkey, surface_object  # noqa: E402
 from picture import Column, View, render_picture  # noqa: E402
+from quiet import without_output  # noqa: E402
 
 IMAGES = ROOT / "docs" / "images"
 FACE = (View((0.07, 0.0, -0.02), 2.82, 230), View((0.25, -0.7, 0.2), 1.0, 230))
@@ -53,10 +53,10 @@ def main() -> int:
     for kind in KINDS:
         if kind.name in wanted:
             bpy.ops.wm.read_factory_settings(use_empty=True)
-            with captured_output():
+            with without_output():
                 obj = make(kind.name)
             columns = compared(obj, kind)
-            with captured_output():
+            with without_output():
                 render_picture(columns, IMAGES / f"preset_{kind.name}.webp", kind.views)
             print(f"Wrote preset_{kind.name}.webp to {IMAGES}.", flush=True)
     return 0

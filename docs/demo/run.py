@@ -20,10 +20,10 @@ from checkout import load_framelet
 load_framelet()
 
 from framelet.core import PRESETS, Comparison, add_noise, compare, denoise  # noqa: E402
-from framelet.operators.command_line.blender_output import captured_output  # noqa: E402
 from framelet.operators.mesh_io import mesh_bridge  # noqa: E402
 from meshes import copy_with_vertices, make_monkey, write_ply  # noqa: E402
 from picture import Column, render_picture  # noqa: E402
+from quiet import without_output  # noqa: E402
 
 SIGMA = 0.2
 """Noise in mean edge lengths, as in the paper's experiments."""
@@ -68,7 +68,7 @@ def main() -> int:
     print_table(runs)
     write_csv(runs, output / "results.csv")
 
-    with captured_output():
+    with without_output():
         for obj in [clean_obj, *(run.obj for run in runs)]:
             write_ply(obj, output / f"{obj.name}.ply")
         columns = [Column(run.obj, run.name, f"{run.comparison.mean_angle:.1f}° mean error") for run in runs]

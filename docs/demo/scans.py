@@ -23,10 +23,10 @@ from mathutils import Euler, Vector
 load_framelet()
 
 from framelet.core import PRESETS, denoise  # noqa: E402
-from framelet.operators.command_line.blender_output import captured_output  # noqa: E402
 from framelet.operators.mesh_io import mesh_bridge  # noqa: E402
 from meshes import copy_with_vertices  # noqa: E402
 from picture import DIRECTION, Column, View, render_picture  # noqa: E402
+from quiet import without_output  # noqa: E402
 
 IMAGES = ROOT / "docs" / "images"
 SIZE = 2.4
@@ -64,10 +64,10 @@ def main() -> int:
             print(f"No picture of {scan.name}: there is no scan/{scan.name}.ply in FRAMELET_MESHES.")
             continue
         bpy.ops.wm.read_factory_settings(use_empty=True)
-        with captured_output():
+        with without_output():
             obj = load_scan(path, scan.turn)
         columns = denoised(obj, scan.strengths)
-        with captured_output():
+        with without_output():
             render_picture(columns, IMAGES / f"scan_{scan.name}.webp", [view(*row) for row in scan.rows])
         print(f"Wrote scan_{scan.name}.webp to {IMAGES}.", flush=True)
     return 0

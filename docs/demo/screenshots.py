@@ -73,6 +73,11 @@ def show_heat(session: Session) -> None:
     press(session, "object.framelet_heat_map", seconds=1.0, across=0.25)
 
 
+def make_live(session: Session) -> None:
+    """Make the levels sliders of a modifier."""
+    press(session, "object.framelet_live_equalizer", seconds=4.0, across=0.75)
+
+
 def show_band(session: Session) -> None:
     """Analyze, and color by a band."""
     press(session, "object.framelet_analyze", seconds=2.0)
@@ -109,8 +114,10 @@ SHOTS = (
     Shot("window_cancel", (), run_long, "WINDOW", 4),
     Shot("panel", (), denoise, "UI"),
     Shot("panel_tri_2", ("advanced",), choose_tri_2, "UI"),
-    Shot("panel_region", ("region", "output"), show_group, "UI"),
+    Shot("panel_region", ("region",), show_group, "UI"),
+    Shot("panel_output", ("output",), denoise, "UI"),
     Shot("panel_equalizer", ("equalizer",), rest, "UI"),
+    Shot("panel_live_equalizer", ("equalizer",), make_live, "UI"),
     Shot("panel_see", ("see",), show_heat, "UI"),
     Shot("panel_last_run", ("last_run", "noise"), denoise_and_scroll, "UI"),
     Shot("panel_try_it", ("try_it",), rest, "UI"),

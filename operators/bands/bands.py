@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, NamedTuple
 from ..mesh_io import band_storage, mesh_bridge
 from ..mesh_io.band_storage import LOW, REST, BandNote, band_name
 from ..mesh_io.mesh_facts import find_facts, is_on_cells, resolve_frame, stored_bytes
+from ..modifier import offsets
+from .transforms import transform_of
 
 if TYPE_CHECKING:
     import bpy
@@ -241,6 +243,7 @@ def clear_object(obj: bpy.types.Object) -> None:
     band_storage.remove_bands(obj.data)
     band_storage.remove_colors(obj.data)
     band_storage.remove_noise(obj.data)
+    offsets.remove_all(obj)
 
 
 def find_note_cells(surface: SurfaceMesh, note: BandNote) -> Cells:
@@ -256,15 +259,9 @@ def _analyze(surface: SurfaceMesh, frame: str, stencil: str, levels: int, bounda
     """Return the coefficients of a surface in float64; the same surface gives the same."""
     import numpy as np
 
-    from ...core import make_transform
-    from ...core.blocks import Blocks
-
-    positions = surface.vertices.astype(np.float64)
-    with Blocks() as blocks:
-        transform = make_transform(
-            surface.with_vertices(positions), frame, stencil, levels, boundary=boundary, blocks=blocks
-        )
-        return transform.analyze(positions)
+    transform, blocks = transform_of(surface, levels, frame, stencil, boundary)
+    with blocks:
+        return transform.analyze(surface.vertices.astype(np.float64))
 
 
 def _places(surface: SurfaceMesh, note: BandNote, level: int) -> list[Place]:

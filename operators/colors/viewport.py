@@ -33,7 +33,7 @@ def hide_unused_colors(context: bpy.types.Context) -> None:
     """Make 3D Views show what they showed before, once no mesh of the scene has colors of Framelet."""
     meshes = [obj.data for obj in context.scene.objects if obj.type == "MESH"]
     if not any(band_storage.has_colors(mesh) for mesh in meshes):
-        context.window_manager.framelet_band_range.names = ""
+        context.window_manager.framelet_band_range.objects.clear()
         hide_vertex_colors(context)
 
 

@@ -82,10 +82,30 @@ def _denoise(job: dict[str, Any], messages: MarkedMessages) -> dict[str, Any]:
     from ...core.settings import DenoiseSettings
     from ..properties.region_options import RegionOptions
     from ..run.denoise_object import denoise_object
+    from ..run.denoise_run import State, begin_run
     from .denoise import describe_result
     from .report_file import entry, plain
 
     settings, options = DenoiseSettings(**job["settings"]), RegionOptions(**job["options"])
+
+    def together(objects: list[bpy.types.Object]) -> Outcome:
+        run = begin_run(objects, settings, job["output"], options)
+        with messages.progress(run.text) as callback:
+
+            def show(fraction: float) -> None:
+                callback(fraction, 0.0)
+
+            run.run_here(show)
+        if run.state is not State.READY:
+            raise CommandError(f"{job['source']}: {run.reason}")
+        done = [(item.original.name, item.measured.report) for item in run.finish()]
+        for name, report in done:
+            for line in describe_result(name, report):
+                messages.say(line)
+        left = [obj.name for obj in objects if obj.name not in dict(done)]
+        for reason in run.failures:
+            messages.warn(f"{reason} It was skipped.")
+        return Outcome(done, list(zip(left, run.failures, strict=True)))
 
     def work(obj: bpy.types.Object) -> DenoiseReport:
         with messages.progress(f"Denoising {obj.name}") as callback:
@@ -94,7 +114,7 @@ def _denoise(job: dict[str, Any], messages: MarkedMessages) -> dict[str, Any]:
             messages.say(line)
         return report
 
-    outcome = _on_meshes(job, messages, work)
+    outcome = _on_meshes(job, messages, None if options.together else work, together)
     return {
         "blender": bpy.app.version_string.split()[0],
         "entries": [plain({"name": name, **entry(report)}) for name, report in outcome.done],
@@ -154,9 +174,12 @@ JOBS: dict[str, Callable[[dict[str, Any], MarkedMessages], dict[str, Any]]] = {
 
 
 def _on_meshes(
-    job: dict[str, Any], messages: MarkedMessages, work: Callable[[bpy.types.Object], Any]
+    job: dict[str, Any],
+    messages: MarkedMessages,
+    work: Callable[[bpy.types.Object], Any] | None,
+    together: Callable[[list[bpy.types.Object]], Outcome] | None = None,
 ) -> Outcome:
-    """Open a file, work on each of its meshes once, and write what came of it."""
+    """Open a file, work on each of its meshes once or on all together, and write what came of it."""
     from .exporting import export
     from .importing import open_source
 
@@ -164,7 +187,11 @@ def _on_meshes(
     objects = open_source(source, messages)
     _say_input(source, objects, messages)
     items = [(obj.name, obj) for obj in _first_objects(objects)]
-    outcome = work_on_each(source, items, messages, work)
+    if work is not None:
+        outcome = work_on_each(source, items, messages, work)
+    else:
+        assert together is not None
+        outcome = together([obj for _, obj in items])
     refused = {obj.data for name, obj in items if name in outcome.refused}
     export(
         [obj for obj in objects if obj.data not in refused],

@@ -147,7 +147,8 @@ def _denoise(
             messages.say(line)
         return reports[0]
 
-    outcome = work_on_each(arguments.source, opened.parts(), messages, work)
+    parts = [opened.whole()] if options.together else opened.parts()
+    outcome = work_on_each(arguments.source, parts, messages, work)
     write_target(opened, target, outputs, messages)
     return outcome
 

@@ -34,6 +34,15 @@ class OpenedFile(NamedTuple):
         """Return the surfaces with their names."""
         return [(part.name, part) for part in self.file.parts()]
 
+    def whole(self) -> tuple[str, Part]:
+        """Return all surfaces as one."""
+        import numpy as np
+
+        from ..files import Part
+
+        part = Part(self.file.name, np.arange(self.file.n_faces), np.arange(len(self.file.positions)))
+        return part.name, part
+
 
 def open_source(source: Path, messages: Messages) -> OpenedFile:
     """Read a file and say what is in it."""
@@ -115,6 +124,7 @@ def region_of(
     """
     from dataclasses import replace
 
+    from ...core.mesh.borders import border_vertices
     from ...core.mesh.checks import check_positions
     from ...core.mesh.geometry import mean_edge_length
 
@@ -126,18 +136,11 @@ def region_of(
             raise ValueError(f"It has no vertex group ‘{options.vertex_group}’; choose one that it has.")
         weights = weights[part.vertices]
     edge = mean_edge_length(surface) if options.limit == "EDGES" else 0.0
-    region = options.region(edge, 1.0, weights)
-    if not options.weld and is_split(opened, surface):
-        region = replace(region, weld_distance=0.0)
+    region = options.region(edge, 1.0, weights, border=border_vertices(surface))
+    if opened.file.always_welded and not region.weld_distance:
+        region = replace(region, weld_distance=0.0, weldable=None)
     movable = opened.file.movable()
     return None if movable is None else movable[part.vertices], region
-
-
-def is_split(opened: OpenedFile, surface: SurfaceMesh) -> bool:
-    """Return whether vertices at the same place are one vertex that the file had to split."""
-    from ..files.surface import border_is_split
-
-    return opened.file.always_welded or border_is_split(surface)
 
 
 def weld_of(opened: OpenedFile, surface: SurfaceMesh) -> Weld | None:
@@ -148,12 +151,13 @@ def weld_of(opened: OpenedFile, surface: SurfaceMesh) -> Weld | None:
     ValueError
         In one sentence, if the mesh cannot be worked on.
     """
+    from ...core.mesh.borders import border_vertices
     from ...core.mesh.checks import check_positions
     from ...core.mesh.weld import make_weld
 
     check_positions(surface)
-    weld = make_weld(surface, 0.0) if is_split(opened, surface) else None
-    return weld if weld is not None and weld.n_merged else None
+    weld = make_weld(surface, 0.0, None if opened.file.always_welded else border_vertices(surface))
+    return weld if weld.n_merged else None
 
 
 def write_target(opened: OpenedFile, target: Path, outputs: Outputs, messages: Messages) -> None:

@@ -15,9 +15,8 @@ from .messages import USAGE_ERROR, CommandError
 
 
 def option_name(item: Field) -> str:
-    """Return the option of a field; one that is on by default is turned off by ``--no-...``."""
-    word = item.name.replace("_", "-")
-    return f"--no-{word}" if item.default is True else f"--{word}"
+    """Return the option of a field; of a switch there is also ``--no-...``."""
+    return f"--{item.name.replace('_', '-')}"
 
 
 def add_region_options(parser: argparse.ArgumentParser) -> None:
@@ -29,8 +28,8 @@ def add_region_options(parser: argparse.ArgumentParser) -> None:
             continue
         words = info.description.replace("%", "%%")
         if item.type == "bool":
-            words = f"turn off {info.label}: {words}" if item.default else f"{info.label}: {words}"
-            action = "store_false" if item.default else "store_true"
+            words = f"{info.label}: {words} (default: {'on' if item.default else 'off'})"
+            action = argparse.BooleanOptionalAction
             group.add_argument(option_name(item), dest=item.name, action=action, help=words)
             continue
         is_text = item.type == "str"
@@ -61,8 +60,8 @@ def region_options_from(arguments: argparse.Namespace) -> RegionOptions:
         raise CommandError("--max-edges and --max-length are two limits; leave one of them out.", USAGE_ERROR)
     if given.get("invert_group") and not given.get("vertex_group"):
         raise CommandError("--invert-group has no effect without --vertex-group; add it.", USAGE_ERROR)
-    if "weld_distance" in given and not given.get("weld"):
-        raise CommandError("--weld-distance has no effect without --weld; add it.", USAGE_ERROR)
+    if "weld_distance" in given and not given.get("weld", True):
+        raise CommandError("--weld-distance has no effect with --no-weld; leave one out.", USAGE_ERROR)
     for name, limit in (("max_edges", "EDGES"), ("max_length", "LENGTH")):
         if name in given:
             given["limit"] = limit

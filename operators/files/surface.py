@@ -157,20 +157,3 @@ def _number_edges(
     number = np.empty(len(edges), np.int64)
     number[order] = np.arange(len(edges))
     return number[corner_edge], edges[order].astype(np.int64)
-
-
-def border_is_split(surface: SurfaceMesh) -> bool:
-    """Return whether vertices of open borders lie at the same place, as at the seams of UVs.
-
-    Parameters
-    ----------
-    surface : SurfaceMesh
-        A mesh; places that are not finite count as different.
-    """
-    from .places import merge_equal
-
-    is_border = np.bincount(surface.corner_edge, minlength=surface.n_edges) == 1
-    vertices = np.unique(surface.edges[is_border])
-    points = surface.vertices[vertices]
-    points = points[np.isfinite(points).all(axis=1)]
-    return len(merge_equal(points)[1]) < len(points)

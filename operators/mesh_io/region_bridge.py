@@ -47,6 +47,7 @@ def read_region(obj: bpy.types.Object, options: RegionOptions) -> RegionRead:
     ValueError
         With a sentence that names the object, if it has no such vertex group, or if nothing may move.
     """
+    from ...core.mesh.borders import border_vertices
     from ...core.mesh.geometry import mean_edge_length
 
     is_edited = obj.data.is_editmode
@@ -66,7 +67,8 @@ def read_region(obj: bpy.types.Object, options: RegionOptions) -> RegionRead:
                 f"of its {which}; give them weights, or choose another group."
             )
     edge = mean_edge_length(surface) if options.limit == "EDGES" else 0.0
-    return RegionRead(surface, movable, options.region(edge, _largest_scale(obj), weights, sharp))
+    border = border_vertices(surface) if options.weld else None
+    return RegionRead(surface, movable, options.region(edge, _largest_scale(obj), weights, sharp, border))
 
 
 def _movable(

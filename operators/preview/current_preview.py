@@ -12,6 +12,7 @@ from ..mesh_io import kept_original
 from ..properties.region_values import to_region_options
 from ..properties.setting_values import to_settings
 from ..run.run_display import redraw_sidebars
+from ..window_events import is_mesh_being_read
 from .preview_session import PreviewSession, begin_preview
 
 if TYPE_CHECKING:
@@ -68,10 +69,15 @@ def start_preview(obj: bpy.types.Object, scene: bpy.types.Scene) -> PreviewSessi
 
 
 def tick_preview() -> bool:
-    """Bring the preview up to date with the settings of the scene; return whether it is on."""
+    """Bring the preview up to date with the settings of the scene; return whether it is on.
+
+    While Blender reads meshes to render or bake them the preview stays as it is.
+    """
     session = current_preview()
     if session is None:
         return False
+    if is_mesh_being_read():
+        return True
     was, text = session.is_current, session.message
     values = bpy.context.scene.framelet
     is_on = session.tick(to_settings(values), to_region_options(values))

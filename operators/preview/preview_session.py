@@ -8,12 +8,18 @@
 from __future__ import annotations
 
 import traceback
+from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from ..mesh_io import kept_original, mesh_bridge
+from ..modifier.inputs import input_values
+from ..modifier.offsets import offset_of
+from ..modifier.recipes import DISPLACEMENT
+from ..modifier.stack import find_modifier
 from ..properties.output_choices import IN_PLACE
-from ..run.denoise_job import DenoiseJob, DenoiseOutcome, compute
+from ..run.assembly import assemble
+from ..run.denoise_job import DenoiseJob, DenoiseOutcome, compute, with_amount
 from ..run.denoise_object import read_job, write_outcome
 from ..run.denoise_run import Written
 from ..run.output import refusal
@@ -57,13 +63,15 @@ class PreviewSession:
         self.mark = mark_of(obj)
         self._job = job
         self._options = options
-        self._original = job.surface.vertices
+        self._original = job.read.vertices
         self._shown = self._original
         self._wanted: DenoiseJob | None = None
         self._outcome: tuple[DenoiseJob, DenoiseOutcome] | None = None
         self._is_touched = self._is_any_touched = self._is_suspended = False
         self._is_allowed = True
-        kept_original.keep(obj.data, self._original)
+        self._result: NDArray[np.float32] | None = None
+        self._inputs: dict[str, object] = {}
+        kept_original.keep(obj.data, self._original, self._shown)
         self._latest: Latest[DenoiseJob, DenoiseOutcome] = Latest(_compute)
 
     @property
@@ -108,7 +116,7 @@ class PreviewSession:
         """
         if not self.is_on or self._is_suspended:
             return self.is_on
-        change = what_changed(self.mark, self._job.surface)
+        change = what_changed(self.mark, self._job.read)
         if change is not None:
             self.end(f"{change}, so that the preview ended.")
             return False
@@ -121,6 +129,8 @@ class PreviewSession:
                 return False
         if options != self._options:
             self._read_again(options)
+        if self._result is not None and self._modifier_inputs() != self._inputs:
+            self._show(self._result)
         answer = self._latest.take()
         if not self._is_allowed:
             return True
@@ -140,7 +150,8 @@ class PreviewSession:
         mesh = find_mesh(self.mark)
         if self.is_on and not self._is_suspended and mesh is not None:
             self._is_suspended = True
-            kept_original.put_back(mesh)
+            if kept_original.has_kept(mesh):
+                kept_original.put_back(mesh)
 
     def resume(self) -> None:
         """Show the preview again."""
@@ -148,21 +159,18 @@ class PreviewSession:
         if not self._is_suspended:
             return
         self._is_suspended = False
-        if obj is not None and what_changed(self.mark, self._job.surface) is None:
-            kept_original.keep(obj.data, self._original)
+        if obj is not None and what_changed(self.mark, self._job.read) is None:
+            kept_original.keep(obj.data, self._original, self._shown)
             mesh_bridge.show_positions(obj.data, self._shown)
 
     def end(self, message: str = "") -> None:
         """End the preview and give the mesh its original positions, bit by bit.
 
-        A mesh that was joined, cut or subdivided meanwhile is left as it is, since nothing says where its
-        vertices were.
+        So do meshes that took its vertices over, as by a join. See `kept_original` for what was edited in
+        ways that leave unknown where its vertices were.
         """
-        if not self._close(message):
-            return
-        mesh = find_mesh(self.mark)
-        if mesh is not None and kept_original.has_kept(mesh):
-            kept_original.put_back(mesh)
+        if self._close(message):
+            kept_original.put_all_back()
 
     def leave(self) -> None:
         """End the preview without touching the mesh; for a file that is being closed."""
@@ -190,7 +198,7 @@ class PreviewSession:
         outcome = self._outcome[1]
         self.end()
         written = write_outcome(obj, replace(self._outcome[0], output=output), outcome)
-        return Written(obj, written, outcome.measured)
+        return Written(obj, written.obj, with_amount(outcome.measured, written.amount), written.note)
 
     @property
     def has_ended(self) -> bool:
@@ -216,10 +224,11 @@ class PreviewSession:
         self._options, self._wanted = options, None
         self.suspend()
         try:
-            job = read_job(obj, self._job.settings, IN_PLACE, options)
-            self._job, self._is_allowed = replace(job, surface=self._job.surface), True
+            job = read_job(obj, self._job.settings, IN_PLACE, options, from_original=True)
+            self._job = replace(job, surface=self._job.surface, present=self._job.present)
+            self._is_allowed = True
         except ValueError as error:
-            self._is_allowed, self._outcome = False, None
+            self._is_allowed, self._outcome, self._result = False, None, None
             self._shown, self.message = self._original, str(error)
         finally:
             self.resume()
@@ -237,11 +246,11 @@ class PreviewSession:
         if edited.mean() < FEW:
             positions = self._original.copy()
             positions[edited] += now[edited] - self._shown[edited]
-            kept_original.keep(obj.data, positions)
+            kept_original.keep(obj.data, positions, now)
+        if kept_original.put_back(obj.data):
             self.end(f"The mesh of ‘{self.name}’ was edited, so that the preview ended.")
         else:
-            kept_original.forget(obj.data)
-            self._close(
+            self.end(
                 f"All of ‘{self.name}’ was edited; it keeps what the preview showed. Undo brings it back."
             )
         return False
@@ -251,25 +260,38 @@ class PreviewSession:
         if error is None and outcome is not None:
             self.message = ""
             self._outcome = job, outcome
-            self._show(mesh_bridge.with_moved(self._job.surface, outcome.vertices))
+            self._result = mesh_bridge.with_moved(self._job.surface, outcome.vertices)
+            self._show(self._result)
             return
         if not isinstance(error, ValueError):
             traceback.print_exception(error)
-        self._outcome = None
+        self._outcome = self._result = None
         self.message = str(error) if isinstance(error, ValueError) else f"An unexpected error: {error!r}."
         self._show(self._original)
 
+    def _modifier_inputs(self) -> dict[str, object]:
+        """Return the inputs of the modifier that adds the result of a run before; empty without one."""
+        modifier = find_modifier(self.find_object(), DISPLACEMENT)
+        return {} if modifier is None else input_values(modifier)
+
     def _show(self, positions: NDArray[np.float32]) -> None:
-        """Write positions to the mesh."""
+        """Write positions to the mesh, less what the modifier adds to a result."""
         obj = self.find_object()
         assert obj is not None  # `tick` has looked
+        if positions is self._result:
+            self._inputs = self._modifier_inputs()
+            with suppress(ValueError):  # with a mask that only nodes can read, both are added
+                added = offset_of(obj, DISPLACEMENT)
+                positions = positions if added is None else positions - added
+        kept_original.keep(obj.data, self._original, positions)
         mesh_bridge.show_positions(obj.data, positions)
         self._shown = positions
 
 
 def _compute(job: DenoiseJob, should_stop: Callable[[], bool]) -> DenoiseOutcome:
     """Denoise; on the thread."""
-    return compute(job, should_stop=should_stop)
+    assembly = assemble([job])
+    return assembly.split(compute(assembly.job, should_stop=should_stop))[0]
 
 
 def begin_preview(obj: bpy.types.Object, settings: DenoiseSettings, options: RegionOptions) -> PreviewSession:
@@ -282,7 +304,7 @@ def begin_preview(obj: bpy.types.Object, settings: DenoiseSettings, options: Reg
     """
     if obj.mode != "OBJECT":
         raise ValueError(f"‘{obj.name}’: the preview needs Object Mode; leave the mode first.")
-    job = read_job(obj, settings, IN_PLACE, options)
+    job = read_job(obj, settings, IN_PLACE, options, from_original=True)
     if obj.data.shape_keys is not None:
         raise ValueError(f"‘{obj.name}’ has shape keys, of which there is no preview; press Denoise.")
     n_vertices = job.surface.n_vertices

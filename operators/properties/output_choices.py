@@ -4,9 +4,15 @@
 
 from ...core.settings.choices import Choice
 
-IN_PLACE, SHAPE_KEY, NEW_OBJECT = "IN_PLACE", "SHAPE_KEY", "NEW_OBJECT"
+IN_PLACE, SHAPE_KEY, NEW_OBJECT, MODIFIER = "IN_PLACE", "SHAPE_KEY", "NEW_OBJECT", "MODIFIER"
 
 OUTPUTS = (
+    Choice(
+        MODIFIER,
+        "Modifier",
+        "The mesh stays as it is, and a modifier moves it: its amount and mask can be changed at any time, "
+        "keyed, and taken away",
+    ),
     Choice(IN_PLACE, "In Place", "The mesh itself is changed; with shape keys, the active one"),
     Choice(
         SHAPE_KEY,

@@ -87,20 +87,26 @@ class RegionOptions:
         "Closed meshes keep their volume: what was lost is given back by moving vertices along the normals",
     )
     weld: bool = setting_field(
-        False,
-        "Weld by Position",
-        "Vertices at the same place count as one for the work and move together, as triangle soups and split "
-        "seams need; the mesh keeps all its vertices, faces and UV maps",
+        True,
+        "Keep Seams Closed",
+        "Vertices of borders at exactly the same place count as one for the work and move together, as "
+        "triangle soups and split seams need; the mesh keeps all its vertices, faces and UV maps",
     )
     weld_distance: float = setting_field(
         0.0,
         "Merge Distance",
-        "Vertices up to so far apart count as one, in scene units: larger welds wider gaps, 0 only vertices "
-        "at exactly the same place",
+        "Vertices up to so far apart count as one, in scene units: larger welds wider gaps; 0 only vertices "
+        "of borders at exactly the same place",
         minimum=0.0,
         maximum=1e9,
         soft_maximum=0.01,
         unit="LENGTH",
+    )
+    together: bool = setting_field(
+        False,
+        "Together",
+        "The selected objects are one surface for the work: borders of different objects that meet stay "
+        "closed and are cleaned as if there was no border, as tiles of a terrain need",
     )
     repair_folds: bool = setting_field(
         True, "Repair Folds", "Where faces would fold over, their vertices move less"
@@ -116,6 +122,7 @@ class RegionOptions:
         scale: float = 1.0,
         weights: NDArray[np.floating] | None = None,
         feature_edges: NDArray[np.integer] | None = None,
+        border: NDArray[np.bool_] | None = None,
     ) -> Region:
         """Return the region of one mesh.
 
@@ -129,6 +136,8 @@ class RegionOptions:
             Weights in the vertex group, as they are there.
         feature_edges : ndarray, shape (E, 2), or None
             Its sharp edges.
+        border : ndarray, shape (N,), bool, or None
+            Its vertices on borders, of which those at the same place are welded; None for all vertices.
         """
         from ...core.limits.region import Region
 
@@ -146,6 +155,7 @@ class RegionOptions:
             along_normals=self.along_normals,
             keep_volume=self.keep_volume,
             weld_distance=_unscaled(self.weld_distance, scale) if self.weld else None,
+            weldable=border if self.weld and not self.weld_distance else None,
             repair_folds=self.repair_folds,
         )
 

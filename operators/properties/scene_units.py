@@ -28,6 +28,13 @@ def linear_part(obj: bpy.types.Object) -> NDArray[np.float64]:
     return np.array(obj.matrix_world, np.float64)[:3, :3]
 
 
+def origin_of(obj: bpy.types.Object) -> NDArray[np.float64]:
+    """Return where an object is in the scene, shape (3,)."""
+    import numpy as np
+
+    return np.array(obj.matrix_world.translation, np.float64)
+
+
 def displacement_in_scene(
     obj: bpy.types.Object, before: NDArray[np.floating], after: NDArray[np.floating]
 ) -> tuple[float, float]:

@@ -107,7 +107,7 @@ def replace_lost(properties: Any) -> None:
 
 def copy_settings(source: Any, target: Any) -> None:
     """Copy all properties of scene settings to an operator, so that the operator needs nothing else."""
-    copy_values(source, target, ("preset", "output", *REGION_NAMES))
+    copy_values(source, target, ("preset", "output", "amount", *REGION_NAMES))
     for name, value in all_values(source).items():
         write_quietly(target, name, value)
 

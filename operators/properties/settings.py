@@ -9,7 +9,7 @@ from typing import Any
 import bpy
 
 from ...core.settings import DEFAULT_PRESET, PRESETS, DenoiseSettings, SettingInfo
-from .output_choices import IN_PLACE, OUTPUTS
+from .output_choices import IN_PLACE, MODIFIER, NEW_OBJECT, OUTPUTS, SHAPE_KEY
 from .region_settings import RegionMixin
 from .setting_values import CUSTOM, DEFINING, FRAME_NAMES, follow_preset, leave_preset
 
@@ -34,6 +34,7 @@ _NUMBERED = {
         "SCULPT",
     ),
     "method": ("POSITIONS", "NORMALS", "BILATERAL", "AUTO"),
+    "output": (IN_PLACE, SHAPE_KEY, NEW_OBJECT, MODIFIER),
 }
 """Lists whose items are shown in another order than they came in. Files hold the numbers of items, so that
 new ones go to the end here, and those that are gone keep their place."""
@@ -102,17 +103,39 @@ class LevelsMixin:
     __annotations__ = {"levels": setting_property(FIELDS["levels"])}
 
 
-class OutputMixin:
-    """Where the result goes; for scene settings and operators. Not a part of presets."""
-
-    output: bpy.props.EnumProperty(
+def _output_property(default: str) -> Any:
+    """Return the property that says where the result goes."""
+    return bpy.props.EnumProperty(
         name="Output",
         description="Where the denoised surface goes",
-        items=[tuple(choice) for choice in OUTPUTS],
-        default=IN_PLACE,
+        items=_items("output", OUTPUTS),
+        default=default,
         options=set(),
     )
 
 
+class OutputMixin:
+    """Where the result goes, and how much of it; for scene settings and operators. Not a part of presets."""
+
+    amount: bpy.props.FloatProperty(
+        name="Amount",
+        description="Factor for what denoising moves: larger moves farther, 0 leaves the mesh as it is, 1 is "
+        "the result. Changing it is instant; Strength says what is taken for noise",
+        default=1.0,
+        min=0.0,
+        max=2.0,
+        precision=3,
+        subtype="FACTOR",
+        options=set(),
+    )
+
+    output: _output_property(IN_PLACE)
+
+
 class FrameletSettings(SettingsMixin, OutputMixin, RegionMixin, bpy.types.PropertyGroup):
-    """The settings that the sidebar shows, stored with the scene."""
+    """The settings that the sidebar shows, stored with the scene.
+
+    There the result is a modifier unless something else is chosen; scripts change the mesh itself.
+    """
+
+    output: _output_property(MODIFIER)

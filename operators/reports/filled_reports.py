@@ -126,7 +126,10 @@ def fill_band_range(
     unit: str = "LENGTH",
 ) -> None:
     """Take over what colors mean; `quantity` is that of a heat map."""
-    properties.names, properties.title, properties.is_signed = ", ".join(names), title, is_signed
+    properties.objects.clear()
+    for name in names:
+        properties.objects.add().name = name
+    properties.title, properties.is_signed = title, is_signed
     properties.quantity, properties.unit = quantity, unit
     properties.minimum = -found.limit if is_signed else 0.0
     properties.maximum, properties.largest = found.limit, found.largest

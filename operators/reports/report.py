@@ -161,10 +161,16 @@ class FrameletComparison(bpy.types.PropertyGroup):
     )
 
 
+class FrameletName(bpy.types.PropertyGroup):
+    """An object, by its `name`. Names may have any sign in them, so that no text holds several."""
+
+
 class FrameletBandRange(bpy.types.PropertyGroup):
     """What the colors of a band or a heat map mean; `unit` is LENGTH, ANGLE or EDGES."""
 
-    names: StringProperty(name="Objects", description="The objects that are colored; empty if there are none")
+    objects: CollectionProperty(
+        type=FrameletName, name="Objects", description="The objects that are colored; none if empty"
+    )
     title: StringProperty(name="Band", description="What is shown")
     quantity: StringProperty(name="Quantity", description="What a heat map shows; empty for bands")
     is_signed: BoolProperty(name="Signed", description="Values are components along the normals")

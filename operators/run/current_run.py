@@ -11,7 +11,7 @@ from bpy.app.translations import pgettext_n as n_
 if TYPE_CHECKING:
     from .denoise_run import DenoiseRun
 
-IS_RUNNING = n_("Framelet is running; press Esc or the right mouse button to cancel")
+IS_RUNNING = n_("Framelet is running; press Esc in the 3D View to cancel")
 
 _run: DenoiseRun | None = None
 

@@ -7,7 +7,7 @@ Nothing here knows Blender, so that any thread may run it.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from ..machine import available_bytes
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from ...core.methods.problem import Callback
     from ...core.report import DenoiseReport, DenoiseResult
     from ...core.settings import DenoiseSettings
+    from ..modifier.mirrors import Plane
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,6 +47,16 @@ class DenoiseJob:
         What else limits the run.
     output : str
         One of `output_choices.OUTPUTS`, where the result goes.
+    amount : float
+        How much of what is moved is written.
+    present : SurfaceMesh or None
+        The mesh as it was read, if that was the result of a run, of which `surface` is the original.
+    mirrors : tuple of Plane
+        Planes in which modifiers mirror the mesh.
+    origin : ndarray, shape (3,), float64, or None
+        Where the object is in the scene.
+    cage : SurfaceMesh or None
+        The mesh itself, if `surface` has what a modifier adds to it at the vertices that may not move.
     """
 
     name: str
@@ -55,6 +66,21 @@ class DenoiseJob:
     movable: NDArray[np.bool_] | None = None
     region: Region | None = None
     output: str = "IN_PLACE"
+    amount: float = 1.0
+    present: SurfaceMesh | None = None
+    mirrors: tuple[Plane, ...] = ()
+    origin: NDArray[np.float64] | None = None
+    cage: SurfaceMesh | None = None
+
+    @property
+    def base(self) -> SurfaceMesh:
+        """The mesh to which the result is written."""
+        return self.surface if self.cage is None else self.cage
+
+    @property
+    def read(self) -> SurfaceMesh:
+        """The mesh as it was read."""
+        return self.base if self.present is None else self.present
 
 
 class MeasuredReport(NamedTuple):
@@ -72,6 +98,21 @@ class DenoiseOutcome(NamedTuple):
 
     vertices: NDArray[np.floating]
     measured: MeasuredReport
+
+
+def with_amount(measured: MeasuredReport, amount: float) -> MeasuredReport:
+    """Return a report with the lengths of a part of the motion."""
+    if amount == 1.0:
+        return measured
+    report = replace(
+        measured.report,
+        n_moved=measured.report.n_moved if amount else 0,
+        displacement_rms=amount * measured.report.displacement_rms,
+        displacement_max=amount * measured.report.displacement_max,
+    )
+    return measured._replace(
+        report=report, scene_rms=amount * measured.scene_rms, scene_max=amount * measured.scene_max
+    )
 
 
 def compute(

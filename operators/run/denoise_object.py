@@ -7,16 +7,24 @@ Reading and writing belong to the main thread; `denoise_job.compute` between the
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
+from ..mesh_io import custom_normals
 from ..mesh_io.region_bridge import read_region
 from ..mesh_io.shape_keys import read_followers
-from ..properties.output_choices import IN_PLACE, SHAPE_KEY
+from ..modifier.displacement import stored_displacement
+from ..modifier.mirrors import read_mirrors
+from ..modifier.offsets import offset_of
+from ..modifier.recipes import DISPLACEMENT
+from ..modifier.stack import find_modifier
+from ..properties.output_choices import IN_PLACE, MODIFIER, SHAPE_KEY
 from ..properties.region_options import RegionOptions
-from ..properties.scene_units import linear_part
+from ..properties.scene_units import linear_part, origin_of
 from . import run_memory
+from .assembly import assemble
 from .denoise_job import DenoiseJob, DenoiseOutcome, MeasuredReport, compute
-from .output import refusal, write_output
+from .output import WrittenOutput, refusal, write_output
 
 if TYPE_CHECKING:
     import bpy
@@ -31,6 +39,9 @@ def read_job(
     settings: DenoiseSettings,
     output: str = IN_PLACE,
     options: RegionOptions | None = None,
+    *,
+    amount: float = 1.0,
+    from_original: bool = False,
 ) -> DenoiseJob:
     """Read what a run needs of an object.
 
@@ -44,6 +55,10 @@ def read_job(
         One of `output_choices.OUTPUTS`.
     options : RegionOptions, optional
         What limits the run; by default selection and hidden vertices alone.
+    amount : float
+        How much of what is moved is written.
+    from_original : bool
+        Start from where the vertices were before the last run, if the mesh still is what that made.
 
     Raises
     ------
@@ -54,10 +69,50 @@ def read_job(
     if reason is not None:
         raise ValueError(reason)
     surface, movable, region = read_region(obj, options or RegionOptions())
-    return DenoiseJob(obj.name, surface, settings, linear_part(obj), movable, region, output)
+    job = DenoiseJob(
+        obj.name,
+        surface,
+        settings,
+        linear_part(obj),
+        movable,
+        region,
+        output,
+        amount,
+        mirrors=read_mirrors(obj),
+        origin=origin_of(obj),
+    )
+    job = _with_kept_parts(obj, job)
+    run = run_memory.last_run_of(obj, surface) if from_original else None
+    if run is None:
+        return job
+    original = surface.with_vertices(run.before)
+    if region.max_displacement is not None and options is not None and options.limit == "EDGES":
+        from ...core.mesh.geometry import mean_edge_length
+
+        region = replace(region, max_displacement=options.max_edges * mean_edge_length(original))
+    return replace(job, surface=original, region=region, present=surface)
 
 
-def write_outcome(obj: bpy.types.Object, job: DenoiseJob, outcome: DenoiseOutcome) -> bpy.types.Object:
+def _with_kept_parts(obj: bpy.types.Object, job: DenoiseJob) -> DenoiseJob:
+    """Leave what the modifier of a run before adds where this run may not move vertices.
+
+    So parts of a mesh can be denoised one after the other.
+    """
+    modifier = find_modifier(obj, DISPLACEMENT)
+    stays = None if job.movable is None else ~job.movable
+    if job.region is not None and job.region.weights is not None:
+        still = job.region.weights == 0.0
+        stays = still if stays is None else stays | still
+    if modifier is None or stays is None:
+        return job
+    added = stored_displacement(obj) if job.output == MODIFIER else offset_of(obj, DISPLACEMENT)
+    assert added is not None  # there is a modifier
+    vertices = job.surface.vertices.copy()
+    vertices[stays] += added[stays]
+    return replace(job, surface=job.surface.with_vertices(vertices), cage=job.surface)
+
+
+def write_outcome(obj: bpy.types.Object, job: DenoiseJob, outcome: DenoiseOutcome) -> WrittenOutput:
     """Write what came of a job that was not stopped.
 
     Parameters
@@ -71,13 +126,19 @@ def write_outcome(obj: bpy.types.Object, job: DenoiseJob, outcome: DenoiseOutcom
 
     Returns
     -------
-    bpy.types.Object
-        The object that has the result: the same, or a new one.
+    WrittenOutput
+        The object that has the result, the same or a new one, and what else was done.
     """
-    followers = {} if job.output == SHAPE_KEY else read_followers(obj)
-    written = write_output(obj, job.surface, outcome.vertices, job.output)
-    run_memory.remember(written.obj, job.surface, written.positions, followers)
-    return written.obj
+    output = job.output
+    if job.present is not None:
+        output = run_memory.go_back(obj, output)
+    followers = {} if output in {SHAPE_KEY, MODIFIER} else read_followers(obj)
+    normals = custom_normals.read_normals(obj.data)
+    written = write_output(obj, job.base, outcome.vertices, output, job.amount)
+    run_memory.remember(
+        written.obj, job.base, written.positions, followers, output=job.output, normals=normals
+    )
+    return written
 
 
 class DenoisedObject(NamedTuple):
@@ -131,7 +192,8 @@ def denoise_and_measure(
 ) -> DenoisedObject:
     """Denoise as `denoise_object` does, say which object has the result, and measure with its scale too."""
     job = read_job(obj, settings, output, options)
-    outcome = compute(job, callback)
+    assembly = assemble([job])
+    (outcome,) = assembly.split(compute(assembly.job, callback))
     if not outcome.measured.report.is_stopped:
-        obj = write_outcome(obj, job, outcome)
+        obj = write_outcome(obj, job, outcome).obj
     return DenoisedObject(obj, outcome.measured)

@@ -15,8 +15,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from bpy.app.translations import pgettext_iface as iface_
 
-from .denoise_job import DenoiseJob, DenoiseOutcome, MeasuredReport, compute
+from .assembly import assemble
+from .denoise_job import DenoiseJob, DenoiseOutcome, MeasuredReport, compute, with_amount
 from .denoise_object import read_job, write_outcome
+from .outcome_memory import keep_outcome, known_outcome
 from .run_guard import Mark, find_object, mark_of, what_changed
 from .worker import Worker
 
@@ -43,11 +45,12 @@ class State(Enum):
 
 
 class Written(NamedTuple):
-    """An object that was denoised, the object that has the result, and the measured report."""
+    """An object that was denoised, the object that has the result, the measured report, and more words."""
 
     original: bpy.types.Object
     obj: bpy.types.Object
     measured: MeasuredReport
+    note: str = ""
 
 
 class DenoiseRun:
@@ -63,12 +66,15 @@ class DenoiseRun:
         If the run failed, one sentence that says why.
     """
 
-    def __init__(self, jobs: list[tuple[Mark, DenoiseJob]], failures: list[str]) -> None:
+    def __init__(
+        self, jobs: list[tuple[Mark, DenoiseJob]], failures: list[str], *, is_together: bool = False
+    ) -> None:
         self.state = State.READING
         self.failures = failures
         self.reason = ""
         self._jobs = jobs
         self._at = 0
+        self._is_together = is_together
         self._is_touched = self._is_started = False
         self._progress: Callable[[float], None] | None = None
         self._worker: Worker[list[DenoiseOutcome | str]] = Worker(self._compute)
@@ -87,6 +93,8 @@ class DenoiseRun:
     def text(self) -> str:
         """What is being done, for people."""
         name = self._jobs[self._at][1].name
+        if self._is_together and len(self._jobs) > 1:
+            return iface_("Denoising {number} objects as one").format(number=len(self._jobs))
         if len(self._jobs) == 1:
             return iface_("Denoising ‘{name}’").format(name=name)
         text = iface_("Denoising ‘{name}’ ({number} of {total})")
@@ -121,7 +129,7 @@ class DenoiseRun:
         in_detail = is_done or self._is_touched
         self._is_touched = False
         for mark, job in self._jobs:
-            change = what_changed(mark, job.surface, in_detail=in_detail)
+            change = what_changed(mark, job.read, in_detail=in_detail)
             if change is not None:
                 self.drop(change)
                 return self.state
@@ -154,7 +162,9 @@ class DenoiseRun:
             if isinstance(outcome, DenoiseOutcome):
                 obj = find_object(mark)
                 assert obj is not None  # `tick` has looked, and nothing happened since
-                written.append(Written(obj, write_outcome(obj, job, outcome), outcome.measured))
+                output = write_outcome(obj, job, outcome)
+                measured = with_amount(outcome.measured, output.amount)
+                written.append(Written(obj, output.obj, measured, output.note))
         return written
 
     def _take_results(self) -> None:
@@ -171,7 +181,7 @@ class DenoiseRun:
                 f"An unexpected error stopped the run ({kind}: {error}); {UNCHANGED}. Please report it."
             )
             return
-        self.failures += [outcome for outcome in outcomes if isinstance(outcome, str)]
+        self.failures += dict.fromkeys(outcome for outcome in outcomes if isinstance(outcome, str))
         if any(isinstance(outcome, DenoiseOutcome) for outcome in outcomes):
             self.state = State.READY
         else:
@@ -183,9 +193,11 @@ class DenoiseRun:
 
     def _compute(self, worker: Worker[list[DenoiseOutcome | str]]) -> list[DenoiseOutcome | str]:
         """Carry out the jobs one after the other; the sentence of an error stands for an outcome."""
-        sizes = [job.surface.n_vertices for _, job in self._jobs]
+        jobs = [job for _, job in self._jobs]
+        groups = [jobs] if self._is_together else [[job] for job in jobs]
+        sizes = [sum(job.surface.n_vertices for job in group) for group in groups]
         outcomes: list[DenoiseOutcome | str] = []
-        for number, (_, job) in enumerate(self._jobs):
+        for number, group in enumerate(groups):
             self._at = number
 
             def advance(share: float, change: float, number: int = number) -> bool:
@@ -195,9 +207,15 @@ class DenoiseRun:
                 return worker.advance(fraction, change)
 
             try:
-                outcomes.append(compute(job, advance, worker.should_stop))
+                assembly = assemble(group)
+                outcome = known_outcome(assembly.job)
+                if outcome is None:
+                    outcome = compute(assembly.job, advance, worker.should_stop)
+                    keep_outcome(assembly.job, outcome)
+                advance(1.0, 0.0)
+                outcomes += assembly.split(outcome)
             except ValueError as error:
-                outcomes.append(str(error))
+                outcomes += [str(error)] * len(group)
             if worker.should_stop():
                 break
         return outcomes
@@ -208,6 +226,9 @@ def begin_run(
     settings: DenoiseSettings,
     output: str = "IN_PLACE",
     options: RegionOptions | None = None,
+    *,
+    amount: float = 1.0,
+    from_original: bool = False,
 ) -> DenoiseRun:
     """Read all that a run needs.
 
@@ -221,6 +242,10 @@ def begin_run(
         One of `output_choices.OUTPUTS`.
     options : RegionOptions, optional
         What limits the run.
+    amount : float
+        How much of what is moved is written.
+    from_original : bool
+        Start from where the vertices were before the last run, where a mesh still is what that made.
 
     Raises
     ------
@@ -230,9 +255,10 @@ def begin_run(
     jobs, failures = [], []
     for obj in objects:
         try:
-            jobs.append((mark_of(obj), read_job(obj, settings, output, options)))
+            job = read_job(obj, settings, output, options, amount=amount, from_original=from_original)
+            jobs.append((mark_of(obj), job))
         except ValueError as error:
             failures.append(str(error))
     if not jobs:
         raise ValueError(" ".join(failures))
-    return DenoiseRun(jobs, failures)
+    return DenoiseRun(jobs, failures, is_together=options is not None and options.together)

@@ -1,13 +1,22 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where a result goes: into the mesh itself, a new shape key, or a new object."""
+"""Where a result goes: into the mesh itself, a new shape key, a new object, or a modifier."""
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, NamedTuple
 
-from ..mesh_io import mesh_bridge
-from ..properties.output_choices import IN_PLACE, NEW_OBJECT, SHAPE_KEY
+from bpy.app.translations import pgettext_n as n_
+from bpy.app.translations import pgettext_rpt as rpt_
+
+from ..mesh_io import custom_normals, mesh_bridge
+from ..modifier import displacement
+from ..modifier.multires import multires_refusal
+from ..modifier.offsets import remove_modifier
+from ..modifier.recipes import DISPLACEMENT
+from ..modifier.stack import find_modifier
+from ..properties.output_choices import IN_PLACE, MODIFIER, NEW_OBJECT, SHAPE_KEY
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -20,6 +29,13 @@ if TYPE_CHECKING:
 
 KEY_NAME = "Denoised"
 """Name of the shape key."""
+
+_NORMALS = {
+    "KEPT": n_("clean custom normals stay as they are"),
+    "RENEWED": n_("custom normals, which were those of the noisy surface, are those of the result"),
+}
+
+_KEY_NAMES = re.compile(rf"{KEY_NAME}(\.\d+)?")
 
 SUFFIX = ".denoised"
 """What is added to the name of a new object."""
@@ -35,10 +51,14 @@ def refusal(obj: bpy.types.Object, output: str) -> str | None:
     output : str
         One of `output_choices.OUTPUTS`.
     """
+    reason = mesh_bridge.kind_refusal(obj) or multires_refusal(obj)
+    if reason is not None:
+        return reason
     if output == IN_PLACE:
         return mesh_bridge.refusal(obj)
-    reason = mesh_bridge.kind_refusal(obj)
-    if reason is None and output == SHAPE_KEY:
+    if output == MODIFIER:
+        return displacement.refusal(obj)
+    if output == SHAPE_KEY:
         reason = mesh_bridge.ownership_refusal(obj)
     if reason is not None:
         return reason
@@ -52,14 +72,24 @@ def refusal(obj: bpy.types.Object, output: str) -> str | None:
 
 
 class WrittenOutput(NamedTuple):
-    """The object that has a result, the same or a new one, and the positions that were written, (N, 3)."""
+    """The object that has a result, the same or a new one, and the positions that were written, (N, 3).
+
+    `note` says in words what else was done, and is empty if nothing was.
+    """
 
     obj: bpy.types.Object
     positions: NDArray[np.float32]
+    note: str = ""
+    amount: float = 1.0
+    """How much of the motion is shown."""
 
 
 def write_output(
-    obj: bpy.types.Object, surface: SurfaceMesh, vertices: NDArray[np.floating], output: str
+    obj: bpy.types.Object,
+    surface: SurfaceMesh,
+    vertices: NDArray[np.floating],
+    output: str,
+    amount: float = 1.0,
 ) -> WrittenOutput:
     """Write new positions of the vertices of an object.
 
@@ -73,16 +103,49 @@ def write_output(
         New positions in object space.
     output : str
         One of `output_choices.OUTPUTS`.
+    amount : float
+        How much of the motion is shown. A modifier or a shape key that was there keeps its own.
 
     Returns
     -------
     WrittenOutput
     """
-    if output == SHAPE_KEY:
-        return WrittenOutput(obj, _add_key(obj, surface, vertices))
+    normals = custom_normals.read_normals(obj.data)
+    if output == MODIFIER:
+        positions = displacement.store_displacement(obj, surface, vertices, amount)
+        note = _normals_note(normals, surface, positions)
+        return WrittenOutput(obj, positions, note, displacement.shown_amount(obj))
     if output == NEW_OBJECT:
         obj = _add_copy(obj)
-    return WrittenOutput(obj, mesh_bridge.write_vertices(obj, surface, vertices))
+    # What was read is the mesh without the modifier of a run before, which would move the result once more.
+    note = ""
+    if find_modifier(obj, DISPLACEMENT) is not None:
+        remove_modifier(obj, DISPLACEMENT)
+        note = rpt_("the modifier of the run before was removed")
+    if output == SHAPE_KEY:
+        note = _both(note, _normals_note(normals, surface, vertices))
+        return _write_key(obj, surface, vertices, amount, note)
+    if amount != 1.0:
+        vertices = surface.vertices + amount * (vertices.astype("float64") - surface.vertices)
+    positions = mesh_bridge.write_vertices(obj, surface, vertices)
+    if normals is not None:
+        settled = custom_normals.settle_normals(obj.data, normals, surface, positions)
+        note = _both(note, rpt_(_NORMALS[settled]) if settled else "")
+    return WrittenOutput(obj, positions, note, amount)
+
+
+def _both(first: str, second: str) -> str:
+    """Return two notes as one."""
+    return "; ".join(filter(None, (first, second)))
+
+
+def _normals_note(
+    normals: NDArray[np.float32] | None, surface: SurfaceMesh, vertices: NDArray[np.floating]
+) -> str:
+    """Say that clean custom normals become noisy, as they follow a mesh that is not changed itself."""
+    if normals is None or not custom_normals.fit_better_after(normals, surface, vertices):
+        return ""
+    return rpt_("custom normals are cleaner than the mesh; with the output In Place they stay so")
 
 
 def select_instead(
@@ -108,21 +171,42 @@ def select_instead(
             view_layer.objects.active = new
 
 
-def _add_key(
-    obj: bpy.types.Object, surface: SurfaceMesh, vertices: NDArray[np.floating]
-) -> NDArray[np.float32]:
-    """Add a shape key with the result, relative to the key that was read, and return its positions."""
+def _write_key(
+    obj: bpy.types.Object,
+    surface: SurfaceMesh,
+    vertices: NDArray[np.floating],
+    amount: float,
+    note: str,
+) -> WrittenOutput:
+    """Write the result to a shape key that is relative to the key that was read.
+
+    What the value of a key blends in is the difference to the shape that was denoised, whatever else is
+    mixed.
+    So a key of a run before that is relative to the same one is replaced, with the value that it has; all
+    others of earlier runs are set to 0, since two results at once are too much.
+    """
+    notes = [note] if note else []
     base = mesh_bridge.active_key(obj)
     if base is None:
         base = obj.shape_key_add(name="Basis", from_mix=False)
-    key = obj.shape_key_add(name=KEY_NAME, from_mix=False)
-    # What the value blends in is the difference to the shape that was denoised, whatever else is mixed.
-    key.relative_key = base
-    key.value = 1.0
+    blocks = obj.data.shape_keys.key_blocks
+    earlier = [key for key in blocks if _KEY_NAMES.fullmatch(key.name) and key != base]
+    key = next((each for each in earlier if each.relative_key == base), None)
+    if key is None:
+        key = obj.shape_key_add(name=KEY_NAME, from_mix=False)
+        key.relative_key = base
+        key.slider_max = max(key.slider_max, amount)
+        key.value = amount
+    else:
+        notes.append(rpt_("the shape key ‘{name}’ was replaced").format(name=key.name))
+    for other in earlier:
+        if other != key and other.value:
+            other.value = 0.0
+            notes.append(rpt_("the shape key ‘{name}’ was set to 0").format(name=other.name))
     positions = mesh_bridge.write_key(key, surface, vertices)
-    obj.active_shape_key_index = len(obj.data.shape_keys.key_blocks) - 1
+    obj.active_shape_key_index = blocks.find(key.name)
     obj.data.update()
-    return positions
+    return WrittenOutput(obj, positions, "; ".join(notes), key.value)
 
 
 def _add_copy(obj: bpy.types.Object) -> bpy.types.Object:

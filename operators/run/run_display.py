@@ -53,7 +53,9 @@ def progress_text(run: DenoiseRun) -> str:
 
 def status_text(run: DenoiseRun) -> str:
     """Return the line for the status bar."""
-    return iface_("{progress}   |   Esc or Right Mouse Button: Cancel").format(progress=progress_text(run))
+    return iface_("{progress}   |   Esc or Right Click in the View: Cancel").format(
+        progress=progress_text(run)
+    )
 
 
 def redraw_sidebars() -> None:

@@ -81,11 +81,11 @@ def empty_scene(registered):
 
 @pytest.fixture
 def settings(empty_scene):
-    """Give the settings of the scene, with a quick preset."""
+    """Give the settings of the scene, with a quick preset and results in the mesh itself."""
     import bpy
 
     found = bpy.context.scene.framelet
-    found.preset = "POSITIONS"
+    found.preset, found.output = "POSITIONS", "IN_PLACE"
     return found
 
 

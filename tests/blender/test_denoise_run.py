@@ -65,7 +65,7 @@ def test_several_objects_are_written_together(gate):
     gate.set()
     assert until_done(run) is State.READY
     assert run.fraction == 1.0
-    assert status_text(run) == "Denoising ‘B’ (2 of 2): 100%   |   Esc or Right Mouse Button: Cancel"
+    assert status_text(run) == "Denoising ‘B’ (2 of 2): 100%   |   Esc or Right Click in the View: Cancel"
     written = run.finish()
     assert [item.obj.name for item in written] == ["A.denoised", "B.denoised"]
     assert [read(obj).tobytes() for obj in objects] == [vertices.tobytes() for vertices in before]

@@ -91,7 +91,7 @@ def test_the_normals_are_those_of_the_result(torus):
     bpy.ops.object.framelet_heat_map()
     limit = np.percentile(np.abs(expected), 98)
     assert shown().maximum == pytest.approx(limit) and shown().minimum == -shown().maximum
-    assert (shown().names, shown().quantity, shown().is_signed) == ("Torus", "NORMAL", True)
+    assert (shown().objects.keys(), shown().quantity, shown().is_signed) == (["Torus"], "NORMAL", True)
     assert np.allclose(colors(torus), map_colors(DIVERGING, expected / limit), atol=1e-5)
 
 
@@ -285,7 +285,7 @@ def test_hiding_brings_back_what_was_shown(torus):
     assert {item.name for item in mesh.attributes} == names and not mesh.keys()
     assert mesh.attributes.active_color_name == "Mine"
     assert (space.shading.type, space.shading.color_type) == ("SOLID", "RANDOM")
-    assert not shown().names
+    assert not shown().objects
     with pytest.raises(RuntimeError, match="The selected meshes have no colors of Framelet"):
         bpy.ops.object.framelet_hide_colors()
 
@@ -329,11 +329,11 @@ def test_a_run_in_edit_mode_takes_the_legend_away(torus):
     first = colors(torus)
     bpy.ops.object.mode_set(mode="EDIT")
     assert bpy.ops.object.framelet_denoise(preset="TRI_1") == {"FINISHED"}
-    assert not shown().names
+    assert not shown().objects
     bpy.ops.object.mode_set(mode="OBJECT")
     assert np.array_equal(colors(torus), first)
     bpy.ops.object.framelet_heat_map()
-    assert shown().names == "Torus" and not np.array_equal(colors(torus), first)
+    assert shown().objects.keys() == ["Torus"] and not np.array_equal(colors(torus), first)
 
 
 def test_a_new_object_has_a_heat_map_of_its_own(torus):
@@ -341,7 +341,7 @@ def test_a_new_object_has_a_heat_map_of_its_own(torus):
     first = colors(torus)
     bpy.ops.object.framelet_denoise(preset="TRI_1", output="NEW_OBJECT")
     new = bpy.context.object
-    assert new != torus and shown().names == new.name
+    assert new != torus and shown().objects.keys() == [new.name]
     values = heat_values(new, "LENGTH").values
     assert np.allclose(colors(new), map_colors(SEQUENTIAL, values / np.percentile(values, 98)), atol=1e-5)
     assert np.array_equal(colors(torus), first)

@@ -171,6 +171,12 @@ def test_it_is_there_while_the_colors_are(torus):
     assert not is_wanted()
 
 
+def test_it_is_there_for_names_with_commas(torus):
+    torus.name = "Left, upper"
+    bpy.ops.object.framelet_heat_map()
+    assert is_wanted()
+
+
 def test_it_goes_when_the_object_does(torus):
     bpy.ops.object.framelet_heat_map()
     bpy.data.objects.remove(torus)

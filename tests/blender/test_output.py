@@ -41,7 +41,7 @@ def test_the_default_is_in_place():
     bpy.ops.object.framelet_denoise(preset=QUICK)
     assert mesh_points(obj.data).tobytes() == expected.tobytes()
     assert obj.data.shape_keys is None and len(bpy.data.objects) == 1
-    assert bpy.context.scene.framelet.output == "IN_PLACE"
+    assert bpy.context.scene.framelet.output == "MODIFIER"
 
 
 def test_a_shape_key_is_a_slider():

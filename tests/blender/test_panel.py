@@ -33,7 +33,7 @@ def test_every_setting_of_a_method_is_shown_once(preset):
     region = draw(region_panel.VIEW3D_PT_framelet_region)["prop"]
     shown += [name for name in region if name in setting_values.SETTING_NAMES]
     expected = [name for name in setting_values.PROPERTY_NAMES if setting_values.has_effect(method, name)]
-    assert sorted(shown) == sorted(expected)
+    assert sorted(shown) == sorted([*expected, "amount"])
 
 
 def test_the_button_carries_the_scene_settings():
@@ -104,7 +104,7 @@ def table(labels):
 def test_the_automatic_panel_is_calm():
     for _ in range(2):
         shown = draw(panel.VIEW3D_PT_framelet)
-        assert shown["prop"] == ["preset", "method", "strength", "noise"] and shown["label"] == []
+        assert shown["prop"] == ["preset", "method", "strength", "noise", "amount"] and shown["label"] == []
         assert draw(panel.VIEW3D_PT_framelet_advanced)["prop"] == ["passes", "threads"]
         bpy.ops.mesh.primitive_cube_add()
         bpy.ops.object.framelet_denoise()
@@ -115,7 +115,7 @@ def test_what_comes_from_the_noise_is_grayed(tuning):
     settings = bpy.context.scene.framelet
     settings.preset, settings.tuning = "POSITIONS", tuning
     record = draw(panel.VIEW3D_PT_framelet)
-    assert record["prop"][:3] == ["preset", "method", "tuning"]
+    assert record["prop"][:4] == ["preset", "method", "amount", "tuning"]
     is_tuned = tuning == "NOISE"
     grayed = ["lambda_", "mu", "Smoothing λ", "–", "Penalty μ", "–"]
     assert record["grayed"] == (grayed if is_tuned else [])

@@ -158,7 +158,8 @@ def test_what_a_run_changed_is_shown_by_buttons_that_stay_pressed(make_object, r
     name = "object.framelet_{}".format
     obj = make_object(meshes.noisy(meshes.triangle_torus(), rng), "Torus")
     record = draw(see_panel.VIEW3D_PT_framelet_see)
-    expected = [name("before_after"), *[name("heat_map")] * 4]
+    sides = [name("before_after")] * 2
+    expected = [*sides, *[name("heat_map")] * 4]
     assert record["operator"] == expected and record["pressed"] == []
     bpy.ops.object.framelet_denoise(preset="TRI_2")
     quantities = ["NORMAL", "ANGLE", "NOISE", "WIDTH"]
@@ -166,14 +167,25 @@ def test_what_a_run_changed_is_shown_by_buttons_that_stay_pressed(make_object, r
         bpy.ops.object.framelet_heat_map(quantity=quantity)
         record = draw(see_panel.VIEW3D_PT_framelet_see)
         buttons = [name("hide_colors") if each == quantity else name("heat_map") for each in quantities]
-        assert record["operator"] == [name("before_after"), *buttons]
-        assert record["pressed"] == [name("hide_colors")]
+        assert record["operator"] == [*sides, *buttons]
+        assert record["pressed"] == [name("before_after"), name("hide_colors")]
         last = [each for each in quantities if each != quantity][-1]
         assert record[name("heat_map")].quantity == last
     obj.data.attributes.active_color_name = ""
-    assert draw(see_panel.VIEW3D_PT_framelet_see)["pressed"] == []
+    assert draw(see_panel.VIEW3D_PT_framelet_see)["pressed"] == [name("before_after")]
     bpy.ops.mesh.primitive_cube_add()
     assert draw(see_panel.VIEW3D_PT_framelet_see)["pressed"] == []
+
+
+def test_names_with_commas_are_names(make_object, rng):
+    first = make_object(meshes.noisy(meshes.triangle_torus(), rng), "Left, upper")
+    bpy.ops.object.framelet_denoise(preset="TRI_2")
+    bpy.ops.object.framelet_heat_map()
+    assert "object.framelet_hide_colors" in draw(see_panel.VIEW3D_PT_framelet_see)["pressed"]
+    assert bpy.context.window_manager.framelet_band_range.objects.keys() == [first.name]
+    bpy.ops.object.framelet_analyze()
+    bpy.ops.object.framelet_show_band()
+    assert "Colors" in draw(band_panels.VIEW3D_PT_framelet_bands)["label"]
 
 
 @pytest.mark.parametrize("rule", ["PERCENTILE", "MAXIMUM", "FIXED"])

@@ -18,6 +18,7 @@ FIRST = "Denoise a selected mesh first"
 BANDS = "Analyze a selected mesh first: none has stored bands"
 PREVIEW_OFF = "The live preview is off"
 NOT_RUNNING = "Framelet is not running"
+NO_MODIFIER = "The selected meshes have no modifier of Framelet"
 
 # What each operator says of an empty scene, of a camera, of a mesh, of a mesh in Sculpt Mode, and of one in
 # Edit Mode; None where it can be used.
@@ -26,6 +27,10 @@ REASONS = {
     "estimate_noise": (SELECT, SELECT, None, OBJECT_OR_EDIT, None),
     "add_noise": (SELECT, SELECT, None, OBJECT_OR_EDIT, None),
     "equalize": (SELECT, SELECT, None, OBJECT_OR_EDIT, None),
+    "live_equalizer": (SELECT, SELECT, None, OBJECT, OBJECT),
+    "apply_modifier": (SELECT, SELECT, NO_MODIFIER, OBJECT_OR_EDIT, NO_MODIFIER),
+    "remove_modifier": (SELECT, SELECT, NO_MODIFIER, OBJECT_OR_EDIT, NO_MODIFIER),
+    "sculpt_mask": (SELECT, SELECT, NO_MODIFIER, OBJECT, OBJECT),
     "compare": (ACTIVE, ACTIVE, None, None, None),
     "analyze": (SELECT, SELECT, None, OBJECT, OBJECT),
     "show_band": (SELECT, SELECT, BANDS, OBJECT, OBJECT),
@@ -96,5 +101,8 @@ def test_they_can_be_used_once_there_is_something(make_object, rng):
     assert [reason(name) for name in ("show_band", "synthesize", "clear")] == [None] * 3
     bpy.ops.object.framelet_denoise(preset="TRI_2")
     assert [reason(name) for name in ("before_after", "heat_map")] == [None] * 2
+    bpy.ops.object.framelet_denoise(preset="TRI_2", output="MODIFIER")
+    assert reason("sculpt_mask") == "The selected meshes have no mask of Sculpt Mode"
+    assert [reason(name) for name in ("apply_modifier", "remove_modifier")] == [None] * 2
     bpy.ops.object.framelet_heat_map()
     assert reason("hide_colors") is None

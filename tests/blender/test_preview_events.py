@@ -11,9 +11,11 @@ import pytest
 import bmesh
 from blender_objects import noisy_monkey
 from framelet.core import PRESETS, denoise
+from framelet.operators import window_events
 from framelet.operators.mesh_io import kept_original, mesh_bridge
 from framelet.operators.mesh_io.mesh_bridge import read_positions
 from framelet.operators.preview import current_preview
+from mathutils import Vector
 from run_steps import assert_clean, expected_for, same, settle, turn_on
 
 pytestmark = pytest.mark.usefixtures("no_thread_stays")
@@ -200,16 +202,29 @@ def test_an_edit_of_some_vertices_is_kept(settings):
     assert_clean(obj.data)
 
 
-def test_an_edit_of_all_vertices_keeps_what_is_shown(settings):
+def test_applying_a_scale_gives_the_original_with_it(settings):
     obj = noisy_monkey()
-    obj.scale = (0.1, 0.1, 0.1)
+    before = read_positions(obj.data)
+    obj.scale = (0.1, 0.2, -0.3)
     settle(turn_on())
-    shown = read_positions(obj.data)
     bpy.ops.object.transform_apply(location=False, rotation=False)
     bpy.context.view_layer.update()
     assert not current_preview.tick_preview()
+    assert "was edited, so that the preview ended" in current_preview.preview_message()
+    assert np.allclose(read_positions(obj.data), before * (0.1, 0.2, -0.3), atol=1e-6)
+    assert_clean(obj.data)
+
+
+def test_an_edit_of_all_vertices_keeps_what_is_shown(settings):
+    obj = noisy_monkey()
+    settle(turn_on())
+    bent = read_positions(obj.data)
+    bent[:, 2] += bent[:, 0] ** 2 + 0.1
+    mesh_bridge.show_positions(obj.data, bent)
+    bpy.context.view_layer.update()
+    assert not current_preview.tick_preview()
     assert "it keeps what the preview showed" in current_preview.preview_message()
-    assert np.allclose(read_positions(obj.data), 0.1 * shown, rtol=1e-5)
+    assert same(read_positions(obj.data), bent)
     assert_clean(obj.data)
 
 
@@ -228,18 +243,91 @@ def test_copies_of_the_object_have_the_original(settings):
     assert_clean(copy.data)
 
 
-def test_joined_vertices_are_not_pulled_to_the_origin(settings):
+POSES = {
+    "as it is": {},
+    "moved": {"location": (3.0, -1.0, 0.5)},
+    "turned and scaled": {"location": (3.0, 0, 0), "rotation_euler": (0.3, 1, 2), "scale": (2, 0.5, -1)},
+}
+
+
+@pytest.mark.parametrize("active", ["A", "B"])
+@pytest.mark.parametrize("pose", POSES)
+def test_a_join_takes_the_original(active, pose, settings, tmp_path):
+    """Whichever object stays, the joined mesh has the original, and nothing is left of the preview."""
     obj, other = noisy_monkey("A"), noisy_monkey("B")
-    other.location.x = 5
+    for name, value in POSES[pose].items():
+        setattr(other, name, value)
+    bpy.context.view_layer.update()
+    into, of = bpy.data.objects[active], other if active == "A" else obj
+    to_joined = into.matrix_world.inverted() @ of.matrix_world
+    moved = np.array([to_joined @ vertex.co for vertex in of.data.vertices], np.float32)
+    expected = np.concatenate((read_positions(into.data), moved))
     bpy.context.view_layer.objects.active = obj
     obj.select_set(True)
     settle(turn_on())
+    bpy.context.view_layer.objects.active = into
     bpy.ops.object.join()
-    joined = read_positions(obj.data)
-    assert len(joined) == 2 * 507 and joined[:, 0].max() > 4
+    path = str(tmp_path / "joined.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)  # before any tick
     assert not current_preview.tick_preview()
-    assert same(read_positions(obj.data), joined)
+    for _ in range(2):
+        joined = bpy.data.objects[active].data
+        assert len(joined.vertices) == 2 * 507
+        assert np.allclose(read_positions(joined), expected, atol=2e-6)
+        assert_clean(joined)
+        bpy.ops.wm.open_mainfile(filepath=path, load_ui=False)
+
+
+def test_a_flat_mesh_that_is_joined_has_its_noise_back(settings):
+    """What is shown may lie in a plane, which says nothing of the way across it."""
+    bpy.ops.mesh.primitive_grid_add(x_subdivisions=9, y_subdivisions=9)
+    flat = bpy.context.object
+    original = read_positions(flat.data)
+    noisy = original + np.float32([0, 0, 0.05]) * np.random.default_rng(0).normal(size=(len(original), 1))
+    kept_original.keep(flat.data, noisy.astype(np.float32), original)
+    other = noisy_monkey("Other", (2, 0, 0))
+    other.rotation_euler, other.scale = (0.5, 0.3, 0), (2, 2, 2)
+    bpy.context.view_layer.update()
+    to_joined = other.matrix_world.inverted() @ flat.matrix_world
+    expected = [to_joined @ Vector(point) for point in noisy]
+    flat.select_set(True)
+    bpy.ops.object.join()
+    kept_original.put_all_back()
+    assert np.allclose(read_positions(other.data)[507:], expected, atol=2e-6)
+
+
+def test_subdivided_meshes_have_the_original(settings):
+    obj = noisy_monkey()
+    twin = bpy.data.objects.new("Twin", obj.data.copy())
+    bpy.context.collection.objects.link(twin)
+    settle(turn_on())
+    for each in (obj, twin):
+        bpy.context.view_layer.objects.active = each
+        edit_mesh = bmesh.new()
+        edit_mesh.from_mesh(each.data)
+        bmesh.ops.subdivide_edges(edit_mesh, edges=edit_mesh.edges[:], cuts=1)
+        edit_mesh.to_mesh(each.data)
+        edit_mesh.free()
+    assert not current_preview.tick_preview()
+    assert np.allclose(read_positions(obj.data), read_positions(twin.data), atol=1e-6)
     assert_clean(obj.data)
+
+
+@pytest.mark.parametrize("job", ["RENDER", "OBJECT_BAKE"])
+def test_nothing_is_written_while_meshes_are_read(settings, monkeypatch, job):
+    obj = noisy_monkey()
+    session = turn_on()
+    settle(session)
+    shown = read_positions(obj.data)
+    jobs = {job}
+    monkeypatch.setattr(window_events, "is_job_running", lambda name: name in jobs)
+    settings.lambda_ = 0.9
+    assert current_preview.tick_preview()
+    assert session.wait(60) and current_preview.tick_preview()
+    assert same(read_positions(obj.data), shown)
+    jobs.clear()
+    settle(session)
+    assert not same(read_positions(obj.data), shown) and session.is_current
 
 
 def test_unregistering_ends_it(settings):

@@ -74,6 +74,7 @@ def test_the_defaults_of_properties_are_those_of_core():
 
 def test_options_without_effect_are_not_shown():
     settings = bpy.context.scene.framelet
+    settings.weld = False
     hidden = {"invert_group", "max_edges", "max_length", "weld_distance"}
     assert set(REGION_NAMES) - set(shown_region_names(settings)) == hidden
     settings.vertex_group, settings.limit, settings.weld = "Part", "LENGTH", True
@@ -217,7 +218,7 @@ def test_a_soup_keeps_vertices_and_uvs_and_stays_closed(distance, make_object, r
     uvs = rng.random(2 * len(obj.data.loops)).astype(np.float32)
     layer.data.foreach_set("uv", uvs)
     before = read(obj)
-    run(weld=True, weld_distance=distance)
+    run(weld_distance=distance)
     after = read(obj)
     assert len(after) == soup.n_vertices
     kept = np.empty_like(uvs)

@@ -50,7 +50,7 @@ def test_signed_values_are_components_along_the_normals(analyzed):
     assert (values < 0).any() and (values > 0).any()
     limit = np.percentile(np.abs(values), 98)
     found = shown_range()
-    assert (found.names, found.title, found.is_signed) == ("Torus", "Level 2, band 3", True)
+    assert (found.objects.keys(), found.title, found.is_signed) == (["Torus"], "Level 2, band 3", True)
     assert found.maximum == pytest.approx(limit) and found.minimum == pytest.approx(-limit)
     assert found.largest == pytest.approx(np.abs(values).max())
     assert found.share == pytest.approx(100 * (np.abs(values) <= limit).mean())
@@ -137,7 +137,7 @@ def test_colors_are_active_and_rendered_and_shown(analyzed):
     assert spaces[0].shading.type == "MATERIAL"
     spaces[0].shading.type = "SOLID"
     assert spaces[0].shading.color_type == "RANDOM"
-    assert not shown_range().names
+    assert not shown_range().objects
 
 
 def test_only_the_view_that_was_used_is_switched(analyzed):
@@ -211,7 +211,7 @@ def test_bands_that_do_not_exist_get_a_sentence(analyzed, values, sentence):
     with pytest.raises(RuntimeError, match=sentence):
         bpy.ops.object.framelet_show_band(**values)
     assert "framelet_band" not in analyzed.data.attributes
-    assert not shown_range().names
+    assert not shown_range().objects
 
 
 def test_undo_takes_the_colors_away(analyzed):
@@ -232,10 +232,10 @@ def test_clearing_one_of_two_keeps_the_view(make_object, rng, analyzed):
     analyzed.select_set(False)
     bpy.ops.object.framelet_clear()
     assert "framelet_band" not in second.data.attributes
-    assert space.shading.color_type == "VERTEX" and shown_range().names
+    assert space.shading.color_type == "VERTEX" and shown_range().objects
     analyzed.select_set(True)
     bpy.ops.object.framelet_clear()
-    assert space.shading.color_type != "VERTEX" and not shown_range().names
+    assert space.shading.color_type != "VERTEX" and not shown_range().objects
 
 
 @pytest.mark.parametrize(

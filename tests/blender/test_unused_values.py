@@ -60,7 +60,10 @@ def warnings(make_object, capfd):
             {"preset": "TRI_2", "max_length": 0.5, "limit": "EDGES"},
             'max_length has no effect without limit="LENGTH".',
         ),
-        ({"preset": "TRI_2", "weld_distance": 0.5}, "weld_distance has no effect without weld=True."),
+        (
+            {"preset": "TRI_2", "weld_distance": 0.5, "weld": False},
+            "weld_distance has no effect without weld=True.",
+        ),
         ({"preset": "TRI_2", "invert_group": True}, "invert_group has no effect without vertex_group."),
     ],
 )

@@ -26,7 +26,8 @@ for obj in list(bpy.data.objects):
     bpy.data.objects.remove(obj)
 
 def positions(name):
-    mesh = bpy.data.objects[name].data
+    # As it is shown: modifiers count.
+    mesh = bpy.data.objects[name].evaluated_get(bpy.context.evaluated_depsgraph_get()).data
     array = np.empty(3 * len(mesh.vertices), np.float32)
     mesh.attributes["position"].data.foreach_get("vector", array)
     return array

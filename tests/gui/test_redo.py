@@ -8,8 +8,8 @@ from blender_window.pixels import changed
 from blender_window.sidebar import press, type_into
 
 
-def test_adjusting_runs_again_from_the_original(ball):
-    ball.run("bpy.context.scene.framelet.strength = 0.875; region('UI').tag_redraw()")
+def test_adjusting_the_amount_is_instant(ball):
+    ball.run("bpy.context.scene.framelet.amount = 0.875; region('UI').tag_redraw()")
     ball.settle()
     noisy = ball.run("result = digest('Ball')")
     press(ball, "object.framelet_denoise")
@@ -18,8 +18,9 @@ def test_adjusting_runs_again_from_the_original(ball):
     ball.click(ball.middle("HUD"), seconds=1.0)
     place = find_copied(ball, 0.875, ball.box("HUD"), across=0.7)
     type_into(ball, place, "0")
-    # Strength 0 changes nothing, whatever was done before.
-    ball.wait_for(f"digest('Ball') == {noisy!r}")
+    # Nothing of the motion is left, and the sidebar has the value too.
+    ball.wait_for(f"digest('Ball') == {noisy!r}", patience=5.0)
+    assert ball.run("result = bpy.context.scene.framelet.amount") == 0.0
 
 
 def test_f9_opens_the_settings(ball):

@@ -12,6 +12,10 @@ from blender_window.sidebar import add_ball, find, press
 NOISY = "result = digest('Ball')"
 IS_RUNNING = "not bpy.ops.object.framelet_denoise.poll() and bpy.ops.object.framelet_cancel.poll()"
 HAS_RUN = "bpy.context.window_manager.framelet_report.n_objects"
+PROPERTIES = """
+area = next(area for area in window().screen.areas if area.type == "PROPERTIES")
+result = [area.x, area.y, area.width, area.height]
+"""
 SETTINGS = """
 bpy.context.scene.framelet.preset = "TRI_2"
 bpy.context.scene.framelet.iterations = 10000
@@ -35,6 +39,18 @@ def long_run(desk):
     yield desk, noisy
     if is_running(desk):
         desk.key("ESC", 1.0)
+
+
+def test_elsewhere_esc_and_right_clicks_are_no_matter(long_run):
+    session, _ = long_run
+    x, y, width, height = session.run(PROPERTIES)
+    for button in ("RIGHTMOUSE", "ESC", "ESC"):
+        session.click((x + width // 2, y + height // 2), button, seconds=0.5)
+        assert is_running(session)
+    sidebar = session.middle("UI")
+    session.click(sidebar, "RIGHTMOUSE", seconds=0.5)
+    session.key("ESC", 0.5)  # closes the menu
+    assert is_running(session)
 
 
 @pytest.mark.parametrize("button", ["ESC", "RIGHTMOUSE"])
@@ -109,5 +125,5 @@ def test_button_and_script_give_the_same_bits(ball):
     clean = ball.run(NOISY)
     ball.move(ball.middle())
     ball.key("Z", 0.5, ctrl=True)
-    ball.run("with override():\n    bpy.ops.object.framelet_denoise()")
+    ball.run("with override():\n    bpy.ops.object.framelet_denoise(output='MODIFIER')")
     assert ball.run(NOISY) == clean

@@ -65,9 +65,11 @@ def test_heat_map_goes_away(denoised):
 
 def test_before_and_after_in_turn(denoised):
     clean, view = denoised.run(NOISY), denoised.part()
-    place = find(denoised, "object.framelet_before_after")
-    denoised.click(place, seconds=1.0)
+    before, after = (find(denoised, "object.framelet_before_after", across=at) for at in (0.25, 0.75))
+    denoised.click(before, seconds=1.0)
     assert denoised.run(NOISY) != clean
     assert denoised.until(lambda: changed(view, denoised.part()) > 0.01)
-    denoised.click(place, seconds=1.0)
+    denoised.click(before, seconds=1.0)
+    assert denoised.run(NOISY) != clean
+    denoised.click(after, seconds=1.0)
     assert denoised.run(NOISY) == clean

@@ -74,9 +74,8 @@ def make_scanned(rng, target: int) -> Mesh:
     ratio = size[0] / max(size[1], 1e-9)
     columns = max(20, int(np.sqrt(n * ratio)))
     spacing, depths = depth_image(seen, (columns, max(20, n // columns)), log_uniform(rng, 0.75, 1.33))
-    if chance(rng, 0.6):
-        # Optics and spot size: no sensor resolves single cells of its grid.
-        depths = _blurred(depths, int(log_uniform(rng, 1, 8)))
+    # Optics and spot size: no sensor resolves single cells of its grid.
+    depths = _blurred(depths, round(log_uniform(rng, 2, 16)))
     i, j = np.meshgrid(*(np.arange(n) for n in depths.shape), indexing="ij")
     points = np.column_stack([i.ravel() * spacing[0], j.ravel() * spacing[1], np.nan_to_num(depths).ravel()])
     number = np.arange(depths.size).reshape(depths.shape)

@@ -30,12 +30,12 @@ def is_wanted(context: bpy.types.Context) -> bool:
     """Tell whether a 3D View shows a mesh in the colors that the legend explains."""
     space = context.space_data
     shown = context.window_manager.framelet_band_range
-    if not shown.names or not space.overlay.show_overlays:
+    if not shown.objects or not space.overlay.show_overlays:
         return False
     if (space.shading.type, space.shading.color_type) != ("SOLID", "VERTEX"):
         return False
     name = band_storage.HEAT_COLORS if shown.quantity else band_storage.COLORS
-    objects = (context.view_layer.objects.get(each) for each in shown.names.split(", "))
+    objects = (context.view_layer.objects.get(each) for each in _names(shown))
     return any(
         obj is not None
         and obj.type == "MESH"
@@ -44,6 +44,11 @@ def is_wanted(context: bpy.types.Context) -> bool:
         and obj.visible_get(viewport=space)
         for obj in objects
     )
+
+
+def _names(shown: bpy.types.PropertyGroup) -> list[str]:
+    """Return the names of the objects that are colored."""
+    return [item.name for item in shown.objects]
 
 
 def legend_texts(scene: bpy.types.Scene, shown: bpy.types.PropertyGroup) -> tuple[str, list[str], str]:

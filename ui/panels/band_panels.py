@@ -9,14 +9,17 @@ from bpy.app.translations import pgettext_iface as iface_
 
 from ...operators.analyze import OBJECT_OT_framelet_analyze, OBJECT_OT_framelet_clear
 from ...operators.bands.bands import megabytes_text
-from ...operators.equalize import OBJECT_OT_framelet_equalize
+from ...operators.equalize import OBJECT_OT_framelet_equalize, OBJECT_OT_framelet_live_equalizer
 from ...operators.mesh_io import band_storage, mesh_facts
+from ...operators.modifier.recipes import EQUALIZER, recipe_of
+from ...operators.modifier.stack import find_modifier
 from ...operators.properties.band_settings import EQUALIZER_NAMES, GAIN_NAMES, SHOW_NAMES, shown_names
 from ...operators.properties.scene_units import length_text
 from ...operators.properties.setting_values import all_values, copy_frame_settings, copy_values, has_effect
 from ...operators.show_band import OBJECT_OT_framelet_show_band
 from ...operators.synthesize import OBJECT_OT_framelet_synthesize
 from .layouts import FrameletPanel, draw_frame, draw_value, settings_column
+from .modifier_rows import draw_input, draw_modifier
 
 
 class VIEW3D_PT_framelet_bands(FrameletPanel, bpy.types.Panel):
@@ -67,9 +70,16 @@ class VIEW3D_PT_framelet_equalizer(FrameletPanel, bpy.types.Panel):
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw the gains, the group and the button."""
+        """Draw the gains, the group and the buttons; of an object with the modifier, its gains and mask."""
         scene, obj = context.scene, context.active_object
         equalizer = scene.framelet_equalizer
+        modifier = find_modifier(obj, EQUALIZER)
+        if obj is not None and modifier is not None:
+            gains = settings_column(self.layout).column(align=True)
+            for term in recipe_of(modifier).terms:
+                draw_input(gains, modifier, term.name)
+            draw_modifier(self.layout, obj, EQUALIZER)
+            return
         column = settings_column(self.layout)
         if not has_effect(scene.framelet.method, "frame"):
             draw_frame(column, scene.framelet, obj)
@@ -81,9 +91,14 @@ class VIEW3D_PT_framelet_equalizer(FrameletPanel, bpy.types.Panel):
             row = column.row(align=True)
             row.prop_search(equalizer, "vertex_group", obj, "vertex_groups")
             row.prop(equalizer, "invert", text="", icon="ARROW_LEFTRIGHT")
-        operator = self.layout.operator(OBJECT_OT_framelet_equalize.bl_idname, icon="FCURVE")
-        copy_frame_settings(scene.framelet, operator, ("frame", "stencil", "boundary"))
-        copy_values(equalizer, operator, EQUALIZER_NAMES)
+        row = self.layout.row(align=True)
+        for each, icon in (
+            (OBJECT_OT_framelet_equalize, "FCURVE"),
+            (OBJECT_OT_framelet_live_equalizer, "MODIFIER"),
+        ):
+            operator = row.operator(each.bl_idname, icon=icon)
+            copy_frame_settings(scene.framelet, operator, ("frame", "stencil", "boundary"))
+            copy_values(equalizer, operator, EQUALIZER_NAMES)
 
 
 def _needed_bytes(scene: bpy.types.Scene, obj: bpy.types.Object | None) -> int | None:
@@ -113,7 +128,7 @@ def _draw_range(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bpy
     """Draw what the colors of an object mean, if that is known."""
     shown = context.window_manager.framelet_band_range
     is_shown = not shown.quantity and band_storage.COLORS in obj.data.attributes
-    if not is_shown or obj.name not in shown.names.split(", "):
+    if not is_shown or obj.name not in shown.objects:
         return
     column = layout.column(align=True)
     draw_value(column, "Colors", shown.title)

@@ -7,12 +7,15 @@ from __future__ import annotations
 import bpy
 from bpy.app.translations import pgettext_n as n_
 
-from ...operators.properties.output_choices import NEW_OBJECT, SHAPE_KEY
+from ...operators.modifier.recipes import DISPLACEMENT
+from ...operators.properties.output_choices import MODIFIER, NEW_OBJECT, SHAPE_KEY
 from .layouts import FrameletPanel, settings_column
+from .modifier_rows import draw_modifier
 
 _HINTS = {
     SHAPE_KEY: n_("Its value is the amount"),
     NEW_OBJECT: n_("The original stays as it is"),
+    MODIFIER: n_("Amount and mask stay adjustable"),
 }
 
 
@@ -24,14 +27,15 @@ class VIEW3D_PT_framelet_output(FrameletPanel, bpy.types.Panel):
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw the choice and, once an output is chosen, what it is good for."""
+        """Draw the choice and what it is good for, and the modifier of the active object, if it has one."""
         settings = context.scene.framelet
         column = settings_column(self.layout)
         column.prop(settings, "output")
         if settings.output in _HINTS:
             column.label(text=_HINTS[settings.output], icon="INFO")
-            if context.mode != "OBJECT":
+            if context.mode != "OBJECT" and settings.output != MODIFIER:
                 column.label(text="Needs Object Mode", icon="ERROR")
+        draw_modifier(self.layout, context.active_object, DISPLACEMENT)
 
 
 classes = (VIEW3D_PT_framelet_output,)

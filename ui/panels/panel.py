@@ -12,8 +12,12 @@ from bpy.app.translations import pgettext_n as n_
 
 from ...operators.denoise import OBJECT_OT_framelet_denoise
 from ...operators.mesh_io import mesh_facts
-from ...operators.properties.setting_values import copy_settings, has_effect, is_replaced
+from ...operators.modifier.recipes import DISPLACEMENT
+from ...operators.modifier.stack import find_modifier
+from ...operators.properties.setting_values import copy_settings, has_effect, is_replaced, write_quietly
+from ...operators.run.run_memory import known_side
 from .layouts import FrameletPanel, draw_settings, draw_value, settings_column
+from .modifier_rows import draw_amount
 from .preset_panel import VIEW3D_PT_framelet_presets
 from .run_rows import draw_preview, draw_progress
 
@@ -51,18 +55,17 @@ class VIEW3D_PT_framelet(FrameletPanel, bpy.types.Panel):
         VIEW3D_PT_framelet_presets.draw_panel_header(self.layout)
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw the button, engine and preset, strength and noise, and the settings that matter most."""
+        """Draw the button, preset and engine, strength, noise, amount, and the settings that matter most."""
         layout = self.layout
         settings = context.scene.framelet
-        row = layout.row()
-        row.scale_y = 1.8
-        copy_settings(settings, row.operator(OBJECT_OT_framelet_denoise.bl_idname, icon="MOD_SMOOTH"))
+        _draw_buttons(layout, context)
         draw_progress(layout)
         draw_preview(layout)
         column = settings_column(layout)
         for name in ("preset", "method", "strength", "noise"):
             if has_effect(settings.method, name):
                 column.prop(settings, name)
+        draw_amount(column, settings, context.active_object)
         layout.separator()
         draw_settings(layout, settings, MAIN_NAMES, context.active_object)
         if is_replaced(settings.method, settings.tuning, "lambda_"):
@@ -84,6 +87,20 @@ class VIEW3D_PT_framelet_advanced(FrameletPanel, bpy.types.Panel):
         if facts and has_effect(settings.method, "frame"):
             for line in mesh_facts.unfit_frames(facts):
                 self.layout.label(text=line, icon="INFO")
+
+
+def _draw_buttons(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
+    """Draw the button that denoises, from the original where the mesh is a result, and one that goes on."""
+    settings, obj = context.scene.framelet, context.active_object
+    row = layout.row(align=True)
+    row.scale_y = 1.8
+    is_again = known_side(obj) == "AFTER"
+    text = n_("Denoise Again", "Operator") if is_again else n_("Denoise", "Operator")
+    copy_settings(settings, row.operator(OBJECT_OT_framelet_denoise.bl_idname, text=text, icon="MOD_SMOOTH"))
+    if is_again and find_modifier(obj, DISPLACEMENT) is None:
+        operator = row.operator(OBJECT_OT_framelet_denoise.bl_idname, text="", icon="FORWARD")
+        copy_settings(settings, operator)
+        write_quietly(operator, "from_original", False)
 
 
 def _draw_chosen(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:

@@ -37,6 +37,7 @@ class VIEW3D_PT_framelet_region(FrameletPanel, bpy.types.Panel):
         column.prop(settings, "weld")
         if settings.weld:
             column.prop(settings, "weld_distance")
+        column.prop(settings, "together")
 
 
 def draw_repairs(layout: bpy.types.UILayout, report: bpy.types.PropertyGroup) -> None:

@@ -12,7 +12,11 @@ from ...operators.colors.heat_settings import HEAT_NAMES, shown_heat_names
 from ...operators.heat_map import OBJECT_OT_framelet_heat_map, OBJECT_OT_framelet_hide_colors
 from ...operators.mesh_io import band_storage
 from ...operators.properties.setting_values import copy_values, write_quietly
+from ...operators.run.run_memory import known_side
 from .layouts import FrameletPanel, settings_column
+
+SIDES = (("BEFORE", n_("Before", "Operator")), ("AFTER", n_("After", "Operator")))
+"""The two sides of a run, with words."""
 
 BUTTONS = (
     (
@@ -37,7 +41,11 @@ class VIEW3D_PT_framelet_see(FrameletPanel, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the buttons, pressed if what they show is shown, and the range of the colors."""
         layout, heat = self.layout, context.scene.framelet_heat_map
-        layout.operator(OBJECT_OT_framelet_before_after.bl_idname, icon="ARROW_LEFTRIGHT")
+        row, side = layout.row(align=True), known_side(context.active_object)
+        idname = OBJECT_OT_framelet_before_after.bl_idname
+        for name, text in SIDES:
+            operator = row.operator(idname, text=text, depress=name == side)
+            write_quietly(operator, "side", name)
         shown = _shown_quantity(context)
         column = layout.column(align=True)
         for buttons in BUTTONS:
@@ -57,7 +65,7 @@ class VIEW3D_PT_framelet_see(FrameletPanel, bpy.types.Panel):
 def _shown_quantity(context: bpy.types.Context) -> str:
     """Return which heat map the active object shows; empty for none."""
     obj, shown = context.active_object, context.window_manager.framelet_band_range
-    if obj is None or obj.type != "MESH" or obj.name not in shown.names.split(", "):
+    if obj is None or obj.type != "MESH" or obj.name not in shown.objects:
         return ""
     return shown.quantity if obj.data.attributes.active_color_name == band_storage.HEAT_COLORS else ""
 

@@ -8,14 +8,32 @@ everything else. A text without an entry is shown in English; `make translations
 
 import bpy
 
-from . import german_bands, german_operators, german_region, german_reports, german_settings
+from . import (
+    german_bands,
+    german_modifier,
+    german_operators,
+    german_region,
+    german_reports,
+    german_settings,
+)
 
-_GERMAN = (german_operators, german_settings, german_bands, german_region, german_reports)
+_GERMAN = (
+    german_operators,
+    german_settings,
+    german_bands,
+    german_modifier,
+    german_region,
+    german_reports,
+)
 
 TRANSLATIONS = {
     # The language without a country serves all countries.
     "de": {
-        **{("Operator", text): german for text, german in german_operators.NAMES.items()},
+        **{
+            ("Operator", text): german
+            for module in (german_operators, german_modifier)
+            for text, german in module.NAMES.items()
+        },
         **{("*", text): german for module in _GERMAN for text, german in module.TEXTS.items()},
     }
 }

@@ -50,8 +50,8 @@ TEXTS = {
     "Rebuild the selected meshes from their stored bands, edited or not": (
         "Die ausgewählten Netze aus ihren gespeicherten Bändern zusammensetzen, ob bearbeitet oder nicht"
     ),
-    "Remove all that Framelet stored on the selected meshes: bands, colors, and the noise": (
-        "Alles entfernen, was Framelet an den ausgewählten Netzen gespeichert hat: Bänder, Farben und das Rauschen"
+    "Remove all that Framelet stored on the selected meshes: bands, colors, the noise, and modifiers": (
+        "Alles entfernen, was Framelet an den ausgewählten Netzen gespeichert hat: Bänder, Farben, das Rauschen und Modifikatoren"
     ),
     "Smooth or exaggerate the details of meshes, scale by scale; in Edit Mode those of selected vertices": (
         "Einzelheiten von Netzen glätten oder übertreiben, Größe für Größe; im Bearbeitungsmodus die der "

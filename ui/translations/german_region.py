@@ -48,14 +48,10 @@ TEXTS = {
     "Where faces would fold over, their vertices move less": (
         "Wo Flächen umschlagen würden, bewegen sich ihre Punkte weniger"
     ),
-    "Weld by Position": "Nach Lage verbinden",
-    "Vertices at the same place count as one for the work and move together, as triangle soups and split seams need; the mesh keeps all its vertices, faces and UV maps": (
-        "Punkte am selben Ort gelten für die Arbeit als einer und bewegen sich gemeinsam, wie es lose Dreiecke und aufgetrennte Nähte brauchen; das Netz behält alle Punkte, Flächen und UV-Karten"
-    ),
+    "Keep Seams Closed": "Nähte geschlossen halten",
+    "Vertices of borders at exactly the same place count as one for the work and move together, as triangle soups and split seams need; the mesh keeps all its vertices, faces and UV maps": "Punkte von Rändern an genau derselben Stelle zählen für die Arbeit als einer und bewegen sich gemeinsam, wie es Dreieckssuppen und getrennte Nähte brauchen; das Netz behält alle Punkte, Flächen und UV-Karten",
     "Merge Distance": "Abstand",
-    "Vertices up to so far apart count as one, in scene units: larger welds wider gaps, 0 only vertices at exactly the same place": (
-        "Punkte bis zu diesem Abstand gelten als einer, in Einheiten der Szene: größer verbindet weitere Lücken, 0 nur Punkte an genau demselben Ort"
-    ),
+    "Vertices up to so far apart count as one, in scene units: larger welds wider gaps; 0 only vertices of borders at exactly the same place": "Punkte bis zu diesem Abstand zählen als einer, in Szeneneinheiten: größer verschweißt breitere Spalten; 0 nur Punkte von Rändern an genau derselben Stelle",
     "‘{name}’ has no such group": "‘{name}’ hat keine solche Gruppe",
     # What became of it
     "{:,} (before: {:,})": "{:,} (vorher: {:,})",
@@ -113,14 +109,14 @@ TEXTS = {
     "Computing {name}": "{name} wird berechnet",
     # A run that goes on
     "Framelet is not running": "Framelet läuft nicht",
-    "Framelet is running; press Esc or the right mouse button to cancel": (
-        "Framelet läuft; Esc oder die rechte Maustaste bricht ab"
-    ),
+    "Framelet is running; press Esc in the 3D View to cancel": "Framelet läuft; Esc in der 3D-Ansicht bricht ab",
     "Canceled; nothing was changed": "Abgebrochen; nichts wurde geändert",
     "Denoising ‘{name}’": "‘{name}’ wird entrauscht",
     "Denoising ‘{name}’ ({number} of {total})": "‘{name}’ wird entrauscht ({number} von {total})",
     "{what}: preparing": "{what}: Vorbereitung",
-    "{progress}   |   Esc or Right Mouse Button: Cancel": "{progress}   |   Esc oder rechte Maustaste: Abbrechen",
+    "{progress}   |   Esc or Right Click in the View: Cancel": (
+        "{progress}   |   Esc oder Rechtsklick in der Ansicht: Abbrechen"
+    ),
     "Denoised {names}: {moved:,} of {total:,} vertices moved, {length} RMS ({edges:.3f} edge lengths), in {seconds:.2f} s": (
         "{names} entrauscht: {moved:,} von {total:,} Punkten bewegt, {length} im Mittel ({edges:.3f} Kantenlängen), in {seconds:.2f} s"
     ),

@@ -151,7 +151,7 @@ TEXTS = {
         "Flächen, die sich um mehr als einen rechten Winkel unterscheiden"
     ),
     # What colors mean
-    "The objects that are colored; empty if there are none": "Die gefärbten Objekte; leer, wenn es keine gibt",
+    "The objects that are colored; none if empty": "Die gefärbten Objekte; leer, wenn es keine gibt",
     "What is shown": "Was zu sehen ist",
     "Quantity": "Größe",
     "What a heat map shows; empty for bands": "Was ein Wärmebild zeigt; leer bei Bändern",

@@ -25,6 +25,8 @@ from framelet.operators.properties.region_options import RegionOptions
             ["--keep-sharp", "--along-normals", "--keep-volume"],
             {"keep_sharp": True, "along_normals": True, "keep_volume": True},
         ),
+        (["--weld-distance", "0.25"], {"weld_distance": 0.25}),
+        (["--no-weld"], {"weld": False}),
         (["--no-repair-folds", "--no-keep-hidden"], {"repair_folds": False, "keep_hidden": False}),
     ],
 )
@@ -38,7 +40,7 @@ def test_what_is_typed_becomes_options(typed, expected):
     [
         (["--max-edges", "1", "--max-length", "1"], "--max-edges and --max-length are two limits"),
         (["--invert-group"], "--invert-group has no effect without --vertex-group"),
-        (["--weld-distance", "1"], "--weld-distance has no effect without --weld"),
+        (["--weld-distance", "1", "--no-weld"], "--weld-distance has no effect with --no-weld"),
         (["--max-edges", "-1"], "Farthest is -1; it must be between 0 and 1000"),
         (["--max-length", "far"], "'far' is not a number"),
     ],
@@ -73,7 +75,7 @@ def test_soups_from_stl_are_welded_in_files_of_vertices_of_their_own(
     faces = [tuple(range(a, b)) for a, b in pairwise(starts)]
     source, target = tmp_path / "soup.ply", tmp_path / "out.ply"
     write_ply(source, grid.vertices[corners], faces)
-    result = command("denoise", source, target, "--preset", "tri-2", "--weld")
+    result = command("denoise", source, target, "--preset", "tri-2")
     assert result.code == 0
     assert "vertices welded" in result.out
     vertices = read_ply(target).vertices

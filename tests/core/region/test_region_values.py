@@ -102,7 +102,13 @@ def test_options_become_a_region():
     assert region.feature_edges is sharp
     assert region.max_displacement == 1.0
     assert region.along_normals and region.keep_volume and region.repair_folds
-    assert region.weld_distance is None
+    assert region.weld_distance == 0.0 and region.weldable is None
+    border = np.array([True, False, True])
+    assert options.region(2.0, border=border).weldable is border
+    far = RegionOptions(weld_distance=0.5).region(2.0, border=border)
+    assert far.weld_distance == 0.5 and far.weldable is None
+    off = RegionOptions(weld=False).region(2.0, border=border)
+    assert off.weld_distance is None and off.weldable is None
 
 
 def test_lengths_in_the_scene_become_those_of_the_mesh():

@@ -1,0 +1,132 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Custom normals of meshes whose vertices move, so that noise does not come back as shading.
+
+Blender keeps most custom normals as differences to the normals of the surface, and these may be noise: of
+a scan that is shaded by the normals of a clean model, or whose normals were found by another program. So
+normals that fit the result better than the input stay as directions. Normals that are those of the noisy
+surface, as they differ from them less than the run turned these, become those of the result. All others
+follow.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import bpy
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from ...core import SurfaceMesh
+
+SAME = 1e-3
+"""Directions that differ by less are the same: Blender keeps them in 16 bits."""
+
+
+def read_normals(mesh: bpy.types.Mesh) -> NDArray[np.float32] | None:
+    """Return the custom normals of all corners, shape (C, 3); None without any, and in Edit Mode."""
+    import numpy as np
+
+    if mesh.is_editmode or not mesh.has_custom_normals:
+        return None
+    normals = np.empty((len(mesh.loops), 3), np.float32)
+    mesh.corner_normals.foreach_get("vector", normals.reshape(-1))
+    return normals
+
+
+def write_normals(mesh: bpy.types.Mesh, normals: NDArray[np.floating]) -> None:
+    """Write the custom normals of all corners, shape (C, 3)."""
+    import numpy as np
+
+    attribute = mesh.attributes.get("custom_normal")
+    if attribute is None or attribute.data_type != "FLOAT_VECTOR":
+        mesh.normals_split_custom_set(normals)
+        return
+    # These are kept as directions, which Blender's function for normals does not know of.
+    if attribute.domain != "CORNER":
+        mesh.attributes.remove(attribute)
+        attribute = mesh.attributes.new("custom_normal", "FLOAT_VECTOR", "CORNER")
+    attribute.data.foreach_set("vector", np.ascontiguousarray(normals, np.float32).reshape(-1))
+    mesh.update()
+
+
+def fit_better_after(normals: NDArray[np.float32], before: SurfaceMesh, after: NDArray[np.floating]) -> bool:
+    """Tell whether custom normals, shape (C, 3), fit a mesh better after its vertices moved.
+
+    Parameters
+    ----------
+    normals : ndarray, shape (C, 3)
+        The normals of the corners before.
+    before : SurfaceMesh
+        The mesh before.
+    after : ndarray, shape (N, 3)
+        Its positions afterwards.
+    """
+    old, new = _smooth(before), _smooth(before.with_vertices(after))
+    return bool(_angle(normals, new) < _angle(normals, old))
+
+
+def settle_normals(
+    mesh: bpy.types.Mesh, normals: NDArray[np.float32], before: SurfaceMesh, after: NDArray[np.floating]
+) -> str:
+    """Bring the custom normals of a mesh in order, whose vertices were just moved.
+
+    Parameters
+    ----------
+    mesh : bpy.types.Mesh
+        The mesh, with its new positions.
+    normals : ndarray, shape (C, 3)
+        What `read_normals` returned before.
+    before : SurfaceMesh
+        The mesh before.
+    after : ndarray, shape (N, 3)
+        Its new positions.
+
+    Returns
+    -------
+    str
+        KEPT if they stay as directions, RENEWED if they are those of the result, empty if they follow.
+    """
+    import numpy as np
+
+    old, new = _smooth(before), _smooth(before.with_vertices(after))
+    if _angle(normals, new) < _angle(normals, old):
+        write_normals(mesh, normals)
+        return "KEPT"
+    if _angle(normals, old) < _angle(old, new):
+        write_normals(mesh, new)
+        return "RENEWED"
+    now = read_normals(mesh)
+    if now is not None and np.abs(now - normals).max() < SAME:
+        write_normals(mesh, _turned(normals, old, new))  # nobody else turns directions
+    return ""
+
+
+def _smooth(surface: SurfaceMesh) -> NDArray[np.float64]:
+    """Return the normals of the vertices at all corners, shape (C, 3)."""
+    from ...core.mesh.geometry import vertex_normals
+
+    return vertex_normals(surface)[surface.corner_vertex]
+
+
+def _angle(first: NDArray[np.floating], second: NDArray[np.floating]) -> float:
+    """Return the mean angle between unit vectors, shape (C, 3) each, in radians."""
+    import numpy as np
+
+    # By the chord: the cosine of a small angle has no digits.
+    chord = np.sqrt(np.square(first - second).sum(axis=1))
+    return float(2.0 * np.arcsin(np.minimum(0.5 * chord, 1.0)).mean())
+
+
+def _turned(
+    normals: NDArray[np.floating], old: NDArray[np.float64], new: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return vectors turned as others turned, shape (C, 3) each."""
+    import numpy as np
+
+    cosine = (old * new).sum(axis=1, keepdims=True)
+    axis = np.cross(old, new)
+    along = (axis * normals).sum(axis=1, keepdims=True)
+    turned = normals * cosine + np.cross(axis, normals) + axis * along / np.maximum(1.0 + cosine, 1e-6)
+    return turned / np.maximum(np.linalg.norm(turned, axis=1, keepdims=True), 1e-30)

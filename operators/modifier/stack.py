@@ -1,0 +1,110 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Framelet's modifiers on objects.
+
+A modifier reads attributes of the mesh, so that all objects of a mesh get it, and lose it, together.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import bpy
+
+from .inputs import input_values, refresh, set_input
+from .node_groups import Recipe, kind_of, remove_unused, shared_group
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+
+def find_modifier(obj: bpy.types.Object | None, kind: str) -> bpy.types.Modifier | None:
+    """Return the first modifier of a kind, a group's kind up to its first space; None if there is none."""
+    if obj is None or obj.type != "MESH":
+        return None
+    return next((item for item in obj.modifiers if _kind(item).partition(" ")[0] == kind), None)
+
+
+def attach(
+    obj: bpy.types.Object, recipe: Recipe, values: Mapping[str, Any] | None = None
+) -> bpy.types.Modifier:
+    """Give all objects of a mesh a modifier.
+
+    One of the same kind stays where it is, with the values of its inputs, and gets the present group. A new
+    one is the first of all: what is added belongs to the vertices of the mesh itself.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        A mesh object.
+    recipe : Recipe
+        What the modifier is.
+    values : mapping, optional
+        Inputs of new ones, by name.
+
+    Returns
+    -------
+    bpy.types.Modifier
+        That of the object.
+    """
+    group = shared_group(recipe)
+    for each in _users(obj.data):
+        modifier = find_modifier(each, recipe.kind.partition(" ")[0])
+        if modifier is None:
+            modifier = each.modifiers.new(recipe.label, "NODES")
+            modifier.node_group = group
+            each.modifiers.move(len(each.modifiers) - 1, 0)
+            for name, value in (values or {}).items():
+                set_input(modifier, name, value)
+        elif modifier.node_group != group:
+            kept = input_values(modifier)
+            modifier.node_group = group
+            for name in input_values(modifier).keys() & kept.keys():
+                set_input(modifier, name, kept[name])
+        refresh(modifier)
+    remove_unused()
+    found = find_modifier(obj, recipe.kind.partition(" ")[0])
+    assert found is not None
+    return found
+
+
+def detach(obj: bpy.types.Object, kind: str) -> bool:
+    """Take the modifiers of a kind from all objects of a mesh, and unused groups; return if there was one."""
+    found = False
+    for each in _users(obj.data):
+        while (modifier := find_modifier(each, kind)) is not None:
+            each.modifiers.remove(modifier)
+            found = True
+    remove_unused()
+    return found
+
+
+def modifiers_below(modifier: bpy.types.Modifier) -> list[bpy.types.Modifier]:
+    """Return the modifiers that are evaluated before one and may change vertices or faces."""
+    others = modifier.id_data.modifiers
+    before = list(others)[: others.find(modifier.name)]
+    return [item for item in before if item.show_viewport and item.type not in KEEPERS and not _kind(item)]
+
+
+_DEFORMERS = """
+    ARMATURE CAST CURVE DISPLACE HOOK LAPLACIANDEFORM LATTICE MESH_DEFORM SHRINKWRAP SIMPLE_DEFORM SMOOTH
+    CORRECTIVE_SMOOTH LAPLACIANSMOOTH SURFACE_DEFORM WARP WAVE MESH_CACHE MESH_SEQUENCE_CACHE
+"""
+_PAINTERS = """
+    DATA_TRANSFER NORMAL_EDIT WEIGHTED_NORMAL UV_PROJECT UV_WARP VERTEX_WEIGHT_EDIT VERTEX_WEIGHT_MIX
+    VERTEX_WEIGHT_PROXIMITY
+"""
+KEEPERS = frozenset((_DEFORMERS + _PAINTERS).split())
+"""Types of modifiers that keep vertices, edges and faces as they are."""
+
+
+def _users(mesh: bpy.types.Mesh) -> Iterator[bpy.types.Object]:
+    """Yield the objects of a mesh whose modifiers can be changed."""
+    for obj in bpy.data.objects:
+        if obj.data == mesh and obj.is_editable:
+            yield obj
+
+
+def _kind(modifier: bpy.types.Modifier) -> str:
+    """Return the kind of a modifier's group; empty if it is none of Framelet's."""
+    return kind_of(modifier.node_group) if modifier.type == "NODES" else ""
