@@ -111,7 +111,8 @@ def quantized(mesh: SampleMesh, rng: np.random.Generator) -> tuple[NDArray[np.fl
         grain = log_uniform(rng, 0.02, 0.15) * mesh.mean_edge * rng.normal(size=mesh.n_vertices)
         positions = positions + mesh.vertex_normals * grain[:, None]
     axes = rng.random() < 0.35
-    turned = positions @ (turn := mesh.rotation(rng))
+    # Heights of a terrain, or any axis.
+    turned = positions @ (turn := mesh.principal_axes() if rng.random() < 0.5 else mesh.rotation(rng))
     chosen = slice(None) if axes else slice(2, 3)
     turned[:, chosen] = np.round(turned[:, chosen] / step) * step
     return turned @ turn.T - mesh.last_offset * step, 1
@@ -171,7 +172,7 @@ MIXTURE: dict[Draw, float] = {
     uneven: 0.1,
     impulsive: 0.08,
     spikes: 0.03,
-    quantized: 0.08,
+    quantized: 0.1,
     voxels: 0.15,
     range_image: 0.22,
     none: 0.05,

@@ -100,6 +100,10 @@ class SampleMesh:
         """Return a random orthogonal matrix."""
         return np.linalg.qr(rng.normal(size=(3, 3)))[0]
 
+    def principal_axes(self) -> NDArray[np.float64]:
+        """Return an orthogonal matrix whose last column is the direction in which the mesh is flattest."""
+        return np.linalg.eigh(np.cov(self.vertices.T))[1][:, ::-1]
+
     def offset(self, rng: np.random.Generator) -> NDArray[np.float64]:
         """Return a random shift, shape (3,), and remember it as `last_offset`."""
         self.last_offset = rng.uniform(-0.5, 0.5, 3)
