@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
+from ..mesh.ragged import Ragged
 from .parts import in_one_array
-from .ragged import Ragged
 
 ITEMS_IN_BLOCK = 2**16
 """Items that are sorted by the sizes of their neighborhoods together."""

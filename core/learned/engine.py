@@ -10,10 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..averages.means import Means
-from ..averages.ragged import Ragged, faces_of_vertices
 from ..averages.ring_means import RingMeans
 from ..blocks import Blocks
 from ..mesh.connectivity import Connectivity
+from ..mesh.corner_lists import faces_of_vertices
+from ..mesh.ragged import Ragged
 from ..mesh.surface_mesh import SurfaceMesh
 from .face_graph import FaceGraph
 from .features import Features, find_features
@@ -72,9 +73,7 @@ class FaceEngine:
             number = np.full(surface.n_faces, -1, np.int32)
             number[self.graph.order] = np.arange(self.graph.n_faces, dtype=np.int32)
             items = number[at_vertex.items]
-            is_there = items >= 0
-            offset = np.concatenate(([0], np.cumsum(is_there)))[at_vertex.offset]
-            at_vertex = Ragged(offset, items[is_there])
+            at_vertex = Ragged(at_vertex.offset, items).kept(items >= 0)
         self.at_vertex = Means(at_vertex, blocks, is_square=False)
         self.fit = ScreenedFit(self.graph, self.at_vertex, self.rings)
         self.island = find_islands(self.graph)

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ..blocks import Blocks
 from ..mesh.connectivity import Connectivity
+from ..mesh.ragged import stretches
 from ..mesh.surface_mesh import SurfaceMesh
 
 FACES_AT_ONCE = 4096
@@ -82,8 +83,7 @@ class FaceGraph:
             number[order] = np.arange(len(order), dtype=np.int32)
             self.order = order
             ordered = all_sizes[order]
-            corner = np.repeat(offset[order] - np.cumsum(ordered) + ordered, ordered)
-            corner = corner + np.arange(len(corner))
+            corner = stretches(offset[order], ordered)
             corner_vertex, corner_edge, across = corner_vertex[corner], corner_edge[corner], across[corner]
             across = np.where(across >= 0, number[across], np.int32(-1))
             sizes, counts = np.unique(ordered, return_counts=True)

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
+from .ragged import stretches
 from .surface_mesh import SurfaceMesh
 
 
@@ -120,7 +121,7 @@ def _newell_areas(
     first = surface.face_offset[:-1][faces]
     counts = surface.face_offset[1:][faces] - first
     begin = np.cumsum(counts) - counts
-    corner = np.arange(counts.sum()) + np.repeat(first - begin, counts)
+    corner = stretches(first, counts)
     following = np.arange(1, len(corner) + 1)
     following[begin + counts - 1] = begin
     corners = points[:, surface.corner_vertex[corner]]
@@ -192,7 +193,7 @@ def face_tips(
     if len(large):
         sizes = counts[large]
         begin = np.cumsum(sizes) - sizes
-        corner = np.arange(sizes.sum()) + np.repeat(first[large] - begin, sizes)
+        corner = stretches(first[large], sizes)
         corners = points.take(surface.corner_vertex[corner], axis=1, mode="clip")
         tips[:, large] = np.add.reduceat(corners, begin, axis=1) / sizes
     return tips

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
+from .ragged import stretches
 from .surface_mesh import SurfaceMesh
 
 SMALLEST = 2**16
@@ -174,8 +175,7 @@ def reorder(
             new_edge.take(rows[1].take(faces, axis=0), out=rows[3][start:stop], mode="clip")
             return
         part = slice(offset[start], offset[stop])
-        corner = np.arange(part.start, part.stop)
-        corner += np.repeat(surface.face_offset[faces] - offset[start:stop], sizes[faces])
+        corner = stretches(surface.face_offset[faces], sizes[faces])
         corner_vertex.take(corner, out=moved_vertex[part], mode="clip")
         new_edge.take(surface.corner_edge[corner], out=moved_edge[part], mode="clip")
 

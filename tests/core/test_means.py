@@ -9,8 +9,9 @@ from framelet.core import connect
 from framelet.core.averages import means as means_module
 from framelet.core.averages import ring_means
 from framelet.core.averages.means import Means, padded
-from framelet.core.averages.ragged import Ragged, faces_of_vertices
 from framelet.core.averages.ring_means import RingMeans
+from framelet.core.mesh.corner_lists import faces_of_vertices
+from framelet.core.mesh.ragged import Ragged
 from kinds import ALONE, BLOCKS, KIND, KINDS
 from learned_twins import averaging, low_pass, ring_matrix
 from meshes import MESHES, faces_of, triangle_grid
