@@ -4,14 +4,14 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 
 class Ragged(NamedTuple):
-    """Rows of different lengths: row i is `items[offset[i]:offset[i + 1]]`.
+    """Rows of different lengths: row i is `items[offset[i]:offset[i + 1]]`; items are whole numbers.
 
     Examples
     --------
@@ -25,11 +25,11 @@ class Ragged(NamedTuple):
     array([0, 1, 1, 2])
     """
 
-    offset: NDArray[np.integer]
-    items: NDArray[np.integer]
+    offset: NDArray[np.int64]
+    items: NDArray[Any]
 
     @classmethod
-    def of_lengths(cls, lengths: NDArray[np.integer], items: NDArray[np.integer]) -> Ragged:
+    def of_lengths(cls, lengths: NDArray[np.integer], items: NDArray[Any]) -> Ragged:
         """Return rows of given lengths, shape (n,), whose items stand one row behind the other."""
         return cls(np.concatenate(([0], np.cumsum(lengths))), items)
 
@@ -42,7 +42,7 @@ class Ragged(NamedTuple):
         """Return the same rows with some of their items only, a mask as long as the items."""
         return Ragged(np.concatenate(([0], np.cumsum(is_kept)))[self.offset], self.items[is_kept])
 
-    def taken(self, rows: NDArray[np.integer]) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
+    def taken(self, rows: NDArray[np.integer]) -> tuple[NDArray[Any], NDArray[np.int64]]:
         """Return the items of some rows, one row behind the other, and the lengths of these rows."""
         begin = self.offset[rows]
         lengths = self.offset[rows + 1] - begin
