@@ -46,9 +46,19 @@ class Means:
         Threads to work on.
     is_square : bool
         Whether members are items themselves, so that fields of members are numbered as inside, too.
+    items_in_block, members_at_once : int, optional
+        Items that are sorted by the sizes of their neighborhoods together; members that a chunk may look up.
     """
 
-    def __init__(self, neighborhoods: Ragged, blocks: Blocks, *, is_square: bool) -> None:
+    def __init__(
+        self,
+        neighborhoods: Ragged,
+        blocks: Blocks,
+        *,
+        is_square: bool,
+        items_in_block: int = ITEMS_IN_BLOCK,
+        members_at_once: int = MEMBERS_AT_ONCE,
+    ) -> None:
         offset, items = neighborhoods
         n_items = len(offset) - 1
         self._blocks, self._item_blocks = blocks.sized(CHUNKS_AT_ONCE), blocks
@@ -61,14 +71,14 @@ class Means:
             chunks, begin = [], start
             for size in np.unique(sizes):
                 alike = start + by_size[begin - start :][: int((sizes == size).sum())]
-                at_once = max(1, MEMBERS_AT_ONCE // max(int(size), 1))
+                at_once = max(1, members_at_once // max(int(size), 1))
                 for part in np.split(alike, range(at_once, len(alike), at_once)):
                     members = items[offset[part] + np.arange(size)[:, None]]
                     chunks.append(_Chunk(begin, members))
                     begin += len(part)
             return chunks
 
-        made = blocks.sized(ITEMS_IN_BLOCK).run(make, n_items)
+        made = blocks.sized(items_in_block).run(make, n_items)
         chunks = [chunk for part in made for chunk in part]
         members = in_one_array([chunk.members for chunk in chunks], np.int32)
         self._chunks = list(map(_Chunk, (chunk.begin for chunk in chunks), members))

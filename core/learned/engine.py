@@ -16,7 +16,7 @@ from ..mesh.connectivity import Connectivity
 from ..mesh.corner_lists import faces_of_vertices
 from ..mesh.ragged import Ragged
 from ..mesh.surface_mesh import SurfaceMesh
-from .face_graph import FaceGraph
+from .face_graph import FACES_AT_ONCE, FaceGraph
 from .features import Features, find_features
 from .islands import faces_of_islands, find_islands
 from .scales import Scales, find_scales
@@ -62,10 +62,18 @@ class FaceEngine:
         Its neighborhoods.
     blocks : Blocks
         Threads to work on.
+    faces_at_once : int, optional
+        Faces or pairs in a block.
     """
 
-    def __init__(self, surface: SurfaceMesh, connectivity: Connectivity, blocks: Blocks) -> None:
-        self.graph = FaceGraph(surface, connectivity, blocks)
+    def __init__(
+        self,
+        surface: SurfaceMesh,
+        connectivity: Connectivity,
+        blocks: Blocks,
+        faces_at_once: int = FACES_AT_ONCE,
+    ) -> None:
+        self.graph = FaceGraph(surface, connectivity, blocks, faces_at_once)
         self._blocks, self._is_long = blocks, long_edges(surface, connectivity)
         self.rings = RingMeans(surface, connectivity, blocks, self._is_long)
         at_vertex = faces_of_vertices(surface, connectivity)

@@ -64,7 +64,12 @@ class Ring(NamedTuple):
 
 
 def distance_rings(
-    adjacency: Ragged, centers: NDArray[np.integer], distances: Collection[int]
+    adjacency: Ragged,
+    centers: NDArray[np.integer],
+    distances: Collection[int],
+    *,
+    centers_at_once: int = CENTERS_AT_ONCE,
+    largest_table: int = LARGEST_TABLE,
 ) -> dict[int, Ring]:
     """Find the vertices at exact distances from each of several vertices, by breadth-first search.
 
@@ -76,6 +81,8 @@ def distance_rings(
         Different vertices; it is fastest if those that follow each other are close together.
     distances : collection of int
         Wanted distances, at least 1.
+    centers_at_once, largest_table : int, optional
+        Centers that are searched from at once, and truth values for them.
 
     Returns
     -------
@@ -89,13 +96,13 @@ def distance_rings(
     """
     numbers = np.full(len(adjacency.offset) - 1, -1, np.int32)
     parts: list[dict[int, Ring]] = []
-    starts = range(0, len(centers), CENTERS_AT_ONCE)
-    waiting = [(begin, min(begin + CENTERS_AT_ONCE, len(centers))) for begin in starts]
+    starts = range(0, len(centers), centers_at_once)
+    waiting = [(begin, min(begin + centers_at_once, len(centers))) for begin in starts]
     waiting.reverse()
     while waiting:
         begin, end = waiting.pop()
         around = _reachable(adjacency, centers[begin:end], max(distances), numbers)
-        if (end - begin) * len(around) > LARGEST_TABLE and end - begin > 1:
+        if (end - begin) * len(around) > largest_table and end - begin > 1:
             middle = (begin + end) // 2
             waiting += [(middle, end), (begin, middle)]
         else:

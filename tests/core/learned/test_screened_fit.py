@@ -25,8 +25,8 @@ FITTED = {
 FIT = pytest.mark.parametrize("name", FITTED)
 
 
-def fit_of(mesh, blocks=ALONE):
-    return FaceEngine(mesh, connect(mesh), blocks).fit
+def fit_of(mesh, blocks=ALONE, **sizes):
+    return FaceEngine(mesh, connect(mesh), blocks, **sizes).fit
 
 
 def points_of(mesh):
@@ -224,13 +224,12 @@ def test_what_cannot_be_unfolded_is_finite_and_stays_held(rng):
 
 
 @FIT
-def test_threads_and_blocks_do_not_change_a_bit(name, rng, monkeypatch):
+def test_threads_and_blocks_do_not_change_a_bit(name, rng):
     mesh = noisy(FITTED[name](), rng)
     normals, results = wanted(mesh, rng, 1.0), []
-    monkeypatch.setattr("framelet.core.learned.face_graph.FACES_AT_ONCE", 5)
     for threads in (1, 2, 3):
         with Blocks(threads, 7) as blocks:
-            results.append(fit_of(mesh, blocks).fit(points_of(mesh), normals))
+            results.append(fit_of(mesh, blocks, faces_at_once=5).fit(points_of(mesh), normals))
     assert_same_bits(results[1], results[0])
     assert_same_bits(results[2], results[0])
 
