@@ -3,9 +3,14 @@
 """Golden results: what two checkouts make of the same meshes, preset by preset, and where they differ most.
 
 `run.py OLD NEW` denoises each mesh as it is and with noise added, with every preset that both checkouts have.
-It prints the largest distance between the two results of each preset, in mean edge lengths, and fails if one
-exceeds what single precision explains. Weights of the net are results of training, not code: `--weights`
-puts those of one checkout into both.
+It prints the largest distance between the two results, in mean edge lengths, and how many vertices are
+further apart than rounding explains. It fails if those are more than a few.
+
+Where a fold may be taken back in two ways, the last bit of the input decides, and a few vertices of a mesh
+differ by as much as half an edge. How many that are for one and the same code shows `run.py OLD OLD --shake`,
+where the second run gets positions that are moved as little as single precision allows.
+
+Weights of the net are results of training, not code: `--weights` puts one file into both.
 """
 
 import argparse
@@ -19,81 +24,100 @@ import numpy as np
 
 ROOT = Path(__file__).resolve().parents[3]
 GOOD = ("tri", "quad", "mixed", "scan")
-ROUNDING = 1e-4
-"""Distances, in mean edge lengths, up to which results agree: rounding of single precision, after a run."""
+
+ROUNDING = 1e-3
+"""Mean edge lengths that single precision may make of a difference in the last bit, in all steps of a run."""
+
+FEW = 0.01
+"""Share of the vertices that may be further apart."""
+
 NOISE = 0.2
 """Standard deviation of the noise that is added, in each coordinate, in mean edge lengths."""
+
+SHAKE = 1e-6
+"""The same for `--shake`: about the last bit of coordinates ten edges from the origin."""
 
 
 def main(words=None):
     """Compare two checkouts; return 0 if they agree."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("old", type=Path, help="one checkout")
-    parser.add_argument("new", type=Path, help="the other")
-    parser.add_argument("--meshes", type=Path, default=ROOT.parent / "shared" / "meshes")
-    parser.add_argument("--kinds", nargs="+", default=GOOD, help="folders of meshes")
-    parser.add_argument("--most", type=int, default=10**9, help="leave out meshes with more bytes than this")
-    parser.add_argument("--weights", type=Path, help="a weights.npz that both use")
-    options = parser.parse_args(words)
+    options = parsed(words)
     paths = [
         path
         for kind in options.kinds
         for path in sorted((options.meshes / kind).iterdir())
         if path.suffix == ".ply" and path.stat().st_size <= options.most
     ]
-    worst = {}
+    worst, is_good = {}, bool(paths)
     with tempfile.TemporaryDirectory() as folder:
         for path in paths:
-            results = [
-                results_of(checkout.resolve(), path, Path(folder) / f"{name}.npz", options.weights)
-                for name, checkout in (("old", options.old), ("new", options.new))
-            ]
-            for case, distance, is_same in differences(*results):
-                print(
-                    f"{path.stem:24} {case:24} {distance:10.3g}  {'same bits' if is_same else ''}", flush=True
-                )
+            old, new = (
+                results_of(checkout.resolve(), path, Path(folder) / f"{name}.npz", options.weights, shake)
+                for name, checkout, shake in (("old", options.old, 0.0), ("new", options.new, options.shake))
+            )
+            for case, distances, is_same in differences(old, new):
+                largest, n_apart = distances.max(initial=0.0), int((distances > ROUNDING).sum())
+                said = "same bits" if is_same else f"{n_apart} of {len(distances)} beyond rounding"
+                print(f"{path.stem:24} {case:22} {largest:10.3g}  {said}", flush=True)
+                is_good &= n_apart <= FEW * len(distances)
                 preset = case.partition(" ")[0]
-                worst[preset] = max(worst.get(preset, (-1.0, "", "")), (distance, path.stem, case))
+                worst[preset] = max(worst.get(preset, (-1.0, "")), (largest, f"{path.stem}, {case}"))
     print()
-    for preset, (distance, mesh, case) in worst.items():
-        print(f"{preset:16} largest distance {distance:10.3g} edges, {mesh}, {case}")
-    return int(not worst or max(worst.values())[0] > ROUNDING)
+    for preset, (largest, where) in worst.items():
+        print(f"{preset:16} largest distance {largest:10.3g} edges: {where}")
+    return int(not is_good)
 
 
-def results_of(checkout, path, out, weights):
+def parsed(words):
+    """Return the options of the command line."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("old", type=Path, help="one checkout")
+    parser.add_argument("new", type=Path, help="the other")
+    parser.add_argument("--meshes", type=Path, default=ROOT.parent / "shared" / "meshes")
+    parser.add_argument("--kinds", nargs="+", default=GOOD, help="folders of meshes")
+    parser.add_argument("--most", type=int, default=10**9, help="leave out meshes with more bytes than this")
+    parser.add_argument("--weights", type=Path, help="a weights.npz that both use")
+    parser.add_argument(
+        "--shake", action="store_const", const=SHAKE, default=0.0, help="move the input of NEW by a last bit"
+    )
+    return parser.parse_args(words)
+
+
+def results_of(checkout, path, out, weights, shake):
     """Return the results of a checkout by case, and the mean edge length; it runs in a process of its own."""
-    command = [sys.executable, __file__, "--one", str(checkout), str(path), str(out), str(weights or "")]
-    subprocess.run(command, check=True)
+    words = ["--one", str(checkout), str(path), str(out), str(weights or ""), str(shake)]
+    subprocess.run([sys.executable, __file__, *words], check=True)
     with np.load(out) as file:
         return dict(file)
 
 
 def differences(old, new):
-    """Yield each case that both have, the largest distance in mean edge lengths, and whether all bits agree.
+    """Yield each case that both have, distances in mean edge lengths, shape (N,), and whether all bits agree.
 
     What both refuse is the same; what only one refuses is infinitely far away.
     """
     edge = float(old.pop("edge"))
-    new.pop("edge")
     for case in old:
         if case in new:
             refused = [result[case].dtype.kind == "U" for result in (old, new)]
             if any(refused):
-                yield case, 0.0 if all(refused) else np.inf, all(refused)
+                yield case, np.array([0.0 if all(refused) else np.inf]), all(refused)
                 continue
-            distance = np.linalg.norm(old[case].astype(np.float64) - new[case], axis=1).max(initial=0.0)
-            yield case, distance / edge, old[case].tobytes() == new[case].tobytes()
+            distances = np.linalg.norm(old[case].astype(np.float64) - new[case], axis=1)
+            yield case, distances / edge, old[case].tobytes() == new[case].tobytes()
 
 
-def write_results(checkout, path, out, weights):
+def write_results(checkout, path, out, weights, shake):
     """Write what a checkout makes of a mesh, with and without noise, with each of its presets."""
     core = loaded_core(checkout, weights)
     vertices, faces = read_ply(path)
     ends = np.concatenate([np.stack((face, np.roll(face, -1)), axis=1) for face in faces])
     edge = np.linalg.norm(vertices[ends[:, 0]] - vertices[ends[:, 1]], axis=1).mean()
-    noise = np.random.default_rng(0).normal(0.0, NOISE * edge, vertices.shape).astype(np.float32)
+    noise, last_bits = np.random.default_rng(0).normal(0.0, edge, (2, *vertices.shape))
     results = {"edge": edge}
-    for word, positions in (("given", vertices), ("noisy", vertices + noise)):
+    for word, level in (("given", 0.0), ("noisy", NOISE)):
+        positions = (vertices + level * noise + shake * last_bits).astype(np.float32)
         surface = core.SurfaceMesh.from_faces(positions, faces)
         for name, preset in core.PRESETS.items():
             try:
@@ -136,7 +160,7 @@ def read_ply(path):
 
 if __name__ == "__main__":
     if sys.argv[1:2] == ["--one"]:
-        where, mesh, target, own_weights = sys.argv[2:]
-        write_results(Path(where), Path(mesh), target, own_weights)
+        where, mesh, target, own_weights, moved = sys.argv[2:]
+        write_results(Path(where), Path(mesh), target, own_weights, float(moved))
     else:
         sys.exit(main())
