@@ -4,6 +4,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from itertools import pairwise
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -51,9 +54,10 @@ def mean_edge_length(
     return sum((blocks or Blocks(1)).run(kernel, surface.n_edges)) / surface.n_corners
 
 
-def row_lengths(rows: NDArray[np.floating]) -> NDArray[np.floating]:
+def row_lengths(rows: Sequence[NDArray[np.floating]] | NDArray[np.floating]) -> NDArray[np.floating]:
     """Return the lengths of vectors with coordinates in rows, shape (3, n); changes the rows."""
-    np.multiply(rows, rows, out=rows)
+    for row in rows:
+        np.multiply(row, row, out=row)
     total = rows[0]
     total += rows[1]
     total += rows[2]
@@ -104,6 +108,30 @@ def area_rows(
     if len(faces):
         areas[:, faces] = _newell_areas(points, surface, start + faces)
     return areas
+
+
+def fan_areas(arms: Sequence[Sequence[NDArray]] | Sequence[NDArray]) -> list[NDArray]:
+    """Return twice the vector areas of faces with as many corners, by axis.
+
+    Parameters
+    ----------
+    arms : sequence of (x, y, z)
+        From the first corner of each face to each of its other corners, in turn; at least two.
+
+    Returns
+    -------
+    list of three ndarrays
+        Coordinates of the sums over the triangles of each fan, in the shape of the arms' coordinates.
+    """
+    totals: list[NDArray] = []
+    for (a, b, c), (x, y, z) in pairwise(arms):
+        parts = (b * z - c * y, c * x - a * z, a * y - b * x)
+        if totals:
+            for total, part in zip(totals, parts, strict=True):
+                total += part
+        else:
+            totals = list(parts)
+    return totals
 
 
 def _half_cross(first: NDArray[np.float64], second: NDArray[np.float64]) -> NDArray[np.float64]:
