@@ -315,7 +315,7 @@ def _is_same(first: NDArray, second: NDArray, blocks: Blocks | None = None) -> b
     def kernel(start: int, stop: int) -> bool:
         return np.array_equal(first[start:stop], second[start:stop])
 
-    return all((blocks or Blocks(1)).sized(COMPARED_AT_ONCE).run(kernel, len(first)))
+    return all((blocks or Blocks(1)).with_block_size(COMPARED_AT_ONCE).run(kernel, len(first)))
 
 
 def _line_strength(settings: DenoiseSettings) -> float:

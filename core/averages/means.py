@@ -61,7 +61,7 @@ class Means:
     ) -> None:
         offset, items = neighborhoods
         n_items = len(offset) - 1
-        self._blocks, self._item_blocks = blocks.sized(CHUNKS_AT_ONCE), blocks
+        self._blocks, self._item_blocks = blocks.with_block_size(CHUNKS_AT_ONCE), blocks
         self._items = np.empty(n_items, np.int32)
 
         def make(start: int, stop: int) -> list[_Chunk]:
@@ -78,7 +78,7 @@ class Means:
                     begin += len(part)
             return chunks
 
-        made = blocks.sized(items_in_block).run(make, n_items)
+        made = blocks.with_block_size(items_in_block).run(make, n_items)
         chunks = [chunk for part in made for chunk in part]
         members = in_one_array([chunk.members for chunk in chunks], np.int32)
         self._chunks = list(map(_Chunk, (chunk.begin for chunk in chunks), members))

@@ -75,7 +75,7 @@ class FaceGraph:
         blocks: Blocks,
         faces_at_once: int = FACES_AT_ONCE,
     ) -> None:
-        self.blocks = blocks.sized(faces_at_once)
+        self.blocks = blocks.with_block_size(faces_at_once)
         size = surface.common_face_size()
         offset, corner_vertex, corner_edge = surface.face_offset, surface.corner_vertex, surface.corner_edge
         across = connectivity.face_across
@@ -141,7 +141,7 @@ class FaceGraph:
                 ),
             )
 
-        self.blocks.sized(1).run(run, len(parts))
+        self.blocks.with_block_size(1).run(run, len(parts))
 
     def for_pairs(self, kernel: Callable[[int, int], None]) -> None:
         """Call `kernel(start, stop)` on threads, for blocks of pairs, without the last."""

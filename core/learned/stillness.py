@@ -189,7 +189,7 @@ def clean_places(
             is_known = found.degrees_of_freedom >= LEAST_DEGREES_OF_FREEDOM
             return is_known, is_known & (found.variance < (CLEAN * unit[own]) ** 2)
 
-        parts = blocks.sized(256).run(look, len(centers))
+        parts = blocks.with_block_size(256).run(look, len(centers))
         is_known, is_quiet = (np.concatenate(part) for part in zip(*parts, strict=True))
         if is_quiet.sum() < SOME_CLEAN * max(is_known.sum(), 1):
             return np.zeros(n_vertices, bool)

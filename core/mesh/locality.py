@@ -55,17 +55,9 @@ class Reordering:
 
     def vertices_back(self, values: NDArray) -> NDArray:
         """Return one value for each vertex, shape (N, ...), in the original order."""
-        return _back(values, self.vertex_order)
-
-    def faces_back(self, values: NDArray) -> NDArray:
-        """Return one value for each face, shape (F, ...), in the original order."""
-        return _back(values, self.face_order)
-
-
-def _back(values: NDArray, order: NDArray[np.int32]) -> NDArray:
-    result = np.empty_like(values)
-    result[order] = values
-    return result
+        result = np.empty_like(values)
+        result[self.vertex_order] = values
+        return result
 
 
 def is_scattered(surface: SurfaceMesh) -> bool:
@@ -145,7 +137,7 @@ def reorder(
     -------
     Reordering
     """
-    blocks = (blocks or Blocks(1)).sized(_ITEMS_AT_ONCE)
+    blocks = (blocks or Blocks(1)).with_block_size(_ITEMS_AT_ONCE)
     n_vertices = surface.n_vertices
     old_number = np.asarray(vertex_order, np.int32)
     new_number = _inverse(old_number, blocks)
@@ -155,7 +147,7 @@ def reorder(
     sizes = surface.face_sizes()
     filled = np.minimum(surface.face_offset[:-1], max(surface.n_corners - 1, 0))
     firsts = (corner_vertex[filled] if surface.n_corners else sizes, edges[:, 0])
-    orders = blocks.sized(1).run(lambda one, _: _coarse_order(firsts[one], n_vertices), 2)
+    orders = blocks.with_block_size(1).run(lambda one, _: _coarse_order(firsts[one], n_vertices), 2)
     face_order, edge_order = orders
     size = surface.common_face_size()
     offset = surface.face_offset  # if all faces have as many corners, they begin where they did

@@ -77,7 +77,7 @@ def dilate(
             if far is not None:
                 _dilate_once(points, far, offset, centers, rings[int(step) * far_distance], order)
 
-    blocks.sized(max(1, CANDIDATES_PER_BLOCK // (8 * max(distances)))).run(
+    blocks.with_block_size(max(1, CANDIDATES_PER_BLOCK // (8 * max(distances)))).run(
         kernel, members.connectivity.n_vertices
     )
     return Members(members.connectivity, near, far)
