@@ -81,16 +81,10 @@ class Blocks:
         if should_stop is not None and should_stop():
             raise Stopped
 
-    def sized(self, block_size: int) -> Blocks:
+    def with_block_size(self, block_size: int) -> Blocks:
         """Return the same threads with another block size; they live and die with this object's."""
         other = Blocks(self.n_threads, block_size)
         other._owner = self._owner
-        return other
-
-    def alone(self) -> Blocks:
-        """Return blocks that run on the calling thread, and stop as those of this object do now."""
-        other = Blocks(1, self.block_size)
-        other._should_stop = self._owner._should_stop
         return other
 
     def run(self, kernel: Callable[[int, int], Result], n_items: int) -> list[Result]:
@@ -146,7 +140,7 @@ class Blocks:
 
     def together(self, *tasks: Callable[[], Any]) -> list[Any]:
         """Call functions at the same time, as far as there are threads, and return what they return."""
-        return self.sized(1).run(lambda start, _: tasks[start](), len(tasks))
+        return self.with_block_size(1).run(lambda start, _: tasks[start](), len(tasks))
 
 
 class _Numbers:

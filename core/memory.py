@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import sys
 from math import ceil
 from typing import Any
 
@@ -34,9 +33,6 @@ USUAL_VALENCE = 16
 PER_NEAR_PAIR, PER_DILATED_PAIR, PER_HUB_BAND = 80, 32, 52
 """Bytes for each pair of vertices that see each other across a vertex of high valence: in the neighborhoods
 of the bilateral filter, while dilated rings are found, and for each band of the frame PAIRWISE."""
-
-MANY_ITEMS = 2**18
-"""Vertices or faces from which on it pays to give freed memory back."""
 
 _PER_CELL_TAP = 105
 _PER_WALKED_TAP = 20
@@ -133,20 +129,6 @@ def _taps_bytes(n_vertices: int, n_corners: int, settings: DenoiseSettings) -> i
     n_bands = 3 if settings.shrinkage in ("VECTOR", "SCALAR") else n_taps
     per_level = 4 * n_taps + 2 * _PER_BAND * n_bands
     return int(n_sites * (per_level * n_levels + LATTICE_ONCE * (n_levels > 1)))
-
-
-def give_back(n_items: int) -> None:
-    """Give freed memory back to the system where its allocator keeps it: glibc, after work on many items.
-
-    It keeps pieces of up to 32 MB, which on large meshes add up to a third of the peak.
-    """
-    if n_items < MANY_ITEMS or not sys.platform.startswith("linux"):
-        return
-    import ctypes
-
-    trim = getattr(ctypes.CDLL(None), "malloc_trim", None)
-    if trim is not None:
-        trim(0)
 
 
 def check_memory(surface: SurfaceMesh, settings: DenoiseSettings, max_bytes: int | None) -> None:

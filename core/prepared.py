@@ -20,7 +20,6 @@ from .limits.constraints import Corners, find_constraints, find_corners
 from .limits.face_watch import FaceState
 from .limits.lines import find_lines, smoothing_of
 from .limits.placed import Placed
-from .memory import give_back
 from .mesh.checks import check_positions, check_surface
 from .mesh.connectivity import Connectivity, connect
 from .mesh.locality import Reordering, is_scattered, reorder, spatial_order
@@ -228,9 +227,7 @@ def prepare_again(
         # Of a mesh that is known only the positions are new.
         known = surface if previous is None else previous.surface
         surface = known.with_vertices(surface.vertices).frozen()
-    prepared = _prepare(surface, settings, previous, connectivity, dtype, should_stop)
-    give_back(surface.n_vertices)
-    return prepared
+    return _prepare(surface, settings, previous, connectivity, dtype, should_stop)
 
 
 def _prepare(
@@ -318,7 +315,7 @@ def _is_same(first: NDArray, second: NDArray, blocks: Blocks | None = None) -> b
     def kernel(start: int, stop: int) -> bool:
         return np.array_equal(first[start:stop], second[start:stop])
 
-    return all((blocks or Blocks(1)).sized(COMPARED_AT_ONCE).run(kernel, len(first)))
+    return all((blocks or Blocks(1)).with_block_size(COMPARED_AT_ONCE).run(kernel, len(first)))
 
 
 def _line_strength(settings: DenoiseSettings) -> float:

@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
+from ..mesh.ragged import Ragged
 from .parts import in_one_array
-from .ragged import Ragged
 
 ITEMS_IN_BLOCK = 2**16
 """Items that are sorted by the sizes of their neighborhoods together."""
@@ -46,12 +46,22 @@ class Means:
         Threads to work on.
     is_square : bool
         Whether members are items themselves, so that fields of members are numbered as inside, too.
+    items_in_block, members_at_once : int, optional
+        Items that are sorted by the sizes of their neighborhoods together; members that a chunk may look up.
     """
 
-    def __init__(self, neighborhoods: Ragged, blocks: Blocks, *, is_square: bool) -> None:
+    def __init__(
+        self,
+        neighborhoods: Ragged,
+        blocks: Blocks,
+        *,
+        is_square: bool,
+        items_in_block: int = ITEMS_IN_BLOCK,
+        members_at_once: int = MEMBERS_AT_ONCE,
+    ) -> None:
         offset, items = neighborhoods
         n_items = len(offset) - 1
-        self._blocks, self._item_blocks = blocks.sized(CHUNKS_AT_ONCE), blocks
+        self._blocks, self._item_blocks = blocks.with_block_size(CHUNKS_AT_ONCE), blocks
         self._items = np.empty(n_items, np.int32)
 
         def make(start: int, stop: int) -> list[_Chunk]:
@@ -61,14 +71,14 @@ class Means:
             chunks, begin = [], start
             for size in np.unique(sizes):
                 alike = start + by_size[begin - start :][: int((sizes == size).sum())]
-                at_once = max(1, MEMBERS_AT_ONCE // max(int(size), 1))
+                at_once = max(1, members_at_once // max(int(size), 1))
                 for part in np.split(alike, range(at_once, len(alike), at_once)):
                     members = items[offset[part] + np.arange(size)[:, None]]
                     chunks.append(_Chunk(begin, members))
                     begin += len(part)
             return chunks
 
-        made = blocks.sized(ITEMS_IN_BLOCK).run(make, n_items)
+        made = blocks.with_block_size(items_in_block).run(make, n_items)
         chunks = [chunk for part in made for chunk in part]
         members = in_one_array([chunk.members for chunk in chunks], np.int32)
         self._chunks = list(map(_Chunk, (chunk.begin for chunk in chunks), members))

@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 from ..blocks import Blocks
 from ..mesh.connectivity import Connectivity
 from ..mesh.locality import stable_order
+from ..mesh.ragged import Ragged
 from ..mesh.surface_mesh import SurfaceMesh
 from .means import Means
-from .ragged import Ragged
 
 LEFT_OUT = 0.01
 """Terms at the end of a series that sum up to less than this are left out: bands need no digits."""
@@ -77,18 +77,13 @@ class RingMeans(Means):
             pairs = np.concatenate((pairs, np.stack((alone, alone), axis=1)))
             counts = np.bincount(pairs[:, 0], minlength=n_vertices)
             order = stable_order(pairs[:, 0].astype(np.int32), n_vertices)
-            self._neighbors = Ragged(
-                np.concatenate(([0], np.cumsum(counts))), pairs[order, 1].astype(np.int32)
-            )
+            self._neighbors = Ragged.of_lengths(counts, pairs[order, 1].astype(np.int32))
         super().__init__(self._neighbors, blocks, is_square=True)
 
     def mean_at(self, points: NDArray[np.floating], vertices: NDArray[np.integer]) -> NDArray[np.floating]:
         """Return the means, shape (3, n), of positions (3, N) over the neighbors of some vertices."""
-        begin = self._neighbors.offset[vertices]
-        counts = self._neighbors.offset[vertices + 1] - begin
-        first = np.cumsum(counts) - counts
-        member = np.arange(counts.sum()) + np.repeat(begin - first, counts)
-        total = np.add.reduceat(points[:, self._neighbors.items[member]], first, axis=1)
+        members, counts = self._neighbors.taken(vertices)
+        total = np.add.reduceat(points[:, members], np.cumsum(counts) - counts, axis=1)
         return total / counts.astype(points.dtype)
 
     def averaged(self, field: NDArray[np.floating], n_averages: int) -> NDArray[np.floating]:

@@ -10,18 +10,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..averages.means import Means
-from ..averages.ragged import Ragged, faces_of_vertices
 from ..averages.ring_means import RingMeans
 from ..blocks import Blocks
 from ..mesh.connectivity import Connectivity
+from ..mesh.corner_lists import faces_of_vertices
+from ..mesh.geometry import fan_areas
+from ..mesh.ragged import Ragged
 from ..mesh.surface_mesh import SurfaceMesh
-from .face_graph import FaceGraph
+from .face_graph import FACES_AT_ONCE, FaceGraph, Polygons
 from .features import Features, find_features
 from .islands import faces_of_islands, find_islands
 from .scales import Scales, find_scales
 from .screened_fit import ScreenedFit
 from .taken import Taken, find_taken
-from .unfolding import fan_areas
 
 WIDE_FROM = 0.05
 """Correlation with the ring of what a pass took away from which the noise is wide. Of white noise it is 0 or
@@ -61,10 +62,18 @@ class FaceEngine:
         Its neighborhoods.
     blocks : Blocks
         Threads to work on.
+    faces_at_once : int, optional
+        Faces or pairs in a block.
     """
 
-    def __init__(self, surface: SurfaceMesh, connectivity: Connectivity, blocks: Blocks) -> None:
-        self.graph = FaceGraph(surface, connectivity, blocks)
+    def __init__(
+        self,
+        surface: SurfaceMesh,
+        connectivity: Connectivity,
+        blocks: Blocks,
+        faces_at_once: int = FACES_AT_ONCE,
+    ) -> None:
+        self.graph = FaceGraph(surface, connectivity, blocks, faces_at_once)
         self._blocks, self._is_long = blocks, long_edges(surface, connectivity)
         self.rings = RingMeans(surface, connectivity, blocks, self._is_long)
         at_vertex = faces_of_vertices(surface, connectivity)
@@ -72,9 +81,7 @@ class FaceEngine:
             number = np.full(surface.n_faces, -1, np.int32)
             number[self.graph.order] = np.arange(self.graph.n_faces, dtype=np.int32)
             items = number[at_vertex.items]
-            is_there = items >= 0
-            offset = np.concatenate(([0], np.cumsum(is_there)))[at_vertex.offset]
-            at_vertex = Ragged(offset, items[is_there])
+            at_vertex = Ragged(at_vertex.offset, items).kept(items >= 0)
         self.at_vertex = Means(at_vertex, blocks, is_square=False)
         self.fit = ScreenedFit(self.graph, self.at_vertex, self.rings)
         self.island = find_islands(self.graph)
@@ -124,11 +131,13 @@ class FaceEngine:
     def vertex_normals(self, points: NDArray[np.float32]) -> NDArray[np.float32]:
         """Return unit vertex normals, shape (3, N): area-weighted means of the faces around a vertex."""
         areas = np.zeros((self.graph.n_faces, 4), np.float32)
-        self.graph.for_faces(
-            lambda faces, polygons: np.copyto(
-                areas[faces, :3], fan_areas([points.take(own, axis=1) for own in polygons.corners]).T
-            )
-        )
+
+        def measure(faces: slice, polygons: Polygons) -> None:
+            first, *others = (points.take(own, axis=1) for own in polygons.corners)
+            for axis, area in enumerate(fan_areas([other - first for other in others])):
+                areas[faces, axis] = area
+
+        self.graph.for_faces(measure)
         means = self.at_vertex.outward(self.at_vertex.mean(areas))[:, :3].T
         return means / np.maximum(np.sqrt((means * means).sum(axis=0)), np.float32(1e-30))
 

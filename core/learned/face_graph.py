@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ..blocks import Blocks
 from ..mesh.connectivity import Connectivity
+from ..mesh.ragged import stretches
 from ..mesh.surface_mesh import SurfaceMesh
 
 FACES_AT_ONCE = 4096
@@ -54,6 +55,8 @@ class FaceGraph:
         Its neighborhoods.
     blocks : Blocks
         Threads to work on.
+    faces_at_once : int, optional
+        Faces or pairs in a block, at most as many as by default.
 
     Attributes
     ----------
@@ -65,8 +68,14 @@ class FaceGraph:
         The faces of each pair, first < second; the last pair is face 0 with itself.
     """
 
-    def __init__(self, surface: SurfaceMesh, connectivity: Connectivity, blocks: Blocks) -> None:
-        self.blocks = blocks.sized(FACES_AT_ONCE)
+    def __init__(
+        self,
+        surface: SurfaceMesh,
+        connectivity: Connectivity,
+        blocks: Blocks,
+        faces_at_once: int = FACES_AT_ONCE,
+    ) -> None:
+        self.blocks = blocks.with_block_size(faces_at_once)
         size = surface.common_face_size()
         offset, corner_vertex, corner_edge = surface.face_offset, surface.corner_vertex, surface.corner_edge
         across = connectivity.face_across
@@ -82,8 +91,7 @@ class FaceGraph:
             number[order] = np.arange(len(order), dtype=np.int32)
             self.order = order
             ordered = all_sizes[order]
-            corner = np.repeat(offset[order] - np.cumsum(ordered) + ordered, ordered)
-            corner = corner + np.arange(len(corner))
+            corner = stretches(offset[order], ordered)
             corner_vertex, corner_edge, across = corner_vertex[corner], corner_edge[corner], across[corner]
             across = np.where(across >= 0, number[across], np.int32(-1))
             sizes, counts = np.unique(ordered, return_counts=True)
@@ -112,10 +120,11 @@ class FaceGraph:
 
     def for_faces(self, kernel: Callable[[slice, Polygons], None]) -> None:
         """Call `kernel(faces, polygons)` on threads, for blocks of faces with as many corners."""
+        at_once = self.blocks.block_size
         parts = [
-            (slice(start, min(start + FACES_AT_ONCE, group.end)), group)
+            (slice(start, min(start + at_once, group.end)), group)
             for group in self.groups
-            for start in range(group.begin, group.end, FACES_AT_ONCE)
+            for start in range(group.begin, group.end, at_once)
         ]
 
         def run(start: int, _: int) -> None:
@@ -132,7 +141,7 @@ class FaceGraph:
                 ),
             )
 
-        self.blocks.sized(1).run(run, len(parts))
+        self.blocks.with_block_size(1).run(run, len(parts))
 
     def for_pairs(self, kernel: Callable[[int, int], None]) -> None:
         """Call `kernel(start, stop)` on threads, for blocks of pairs, without the last."""

@@ -4,13 +4,13 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..averages.ring_means import RingMeans
+from ..mesh.geometry import fan_areas
 from .face_graph import FaceGraph, Polygons
 
 AVERAGES = (2, 10, 48)
@@ -80,7 +80,7 @@ def find_scales(points: NDArray[np.float32], graph: FaceGraph, rings: RingMeans)
             np.multiply(total, share, out=scales.centroids[axis, faces])
             for corner in corners[1:]:
                 corner[axis] -= corners[0][axis]
-        area = _fan_cross(corners)
+        area = fan_areas(corners[1:])
         size = area[0] * area[0]
         size += area[1] * area[1]
         size += area[2] * area[2]
@@ -126,22 +126,6 @@ def _planes(
 
     graph.blocks.run(gather, n_vertices)
     return scaled, unit
-
-
-def _fan_cross(arms: list[list[NDArray[np.float32]]]) -> list[NDArray[np.float32]]:
-    """Return twice the area vectors of fans, by axis.
-
-    Arm k goes from corner 0 to corner k; the first is not used.
-    """
-    totals: list[NDArray[np.float32]] = []
-    for (a, b, c), (x, y, z) in pairwise(arms[1:]):
-        parts = (b * z - c * y, c * x - a * z, a * y - b * x)
-        if totals:
-            for total, part in zip(totals, parts, strict=True):
-                total += part
-        else:
-            totals = list(parts)
-    return totals
 
 
 def _edge_lengths(

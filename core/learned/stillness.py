@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ..averages.ring_means import RingMeans
 from ..blocks import Blocks
 from ..mesh.connectivity import Connectivity
-from ..mesh.distance_rings import Adjacency
+from ..mesh.ragged import Ragged
 from ..mesh.surface_mesh import SurfaceMesh
 from ..noise.fits import fit_heights
 from ..noise.patches import find_patches, local_adjacency, spread_sample
@@ -182,14 +182,14 @@ def clean_places(
         adjacency = local_adjacency(surface, connectivity, centers)
 
         def look(
-            start: int, stop: int, centers: NDArray[np.intp] = centers, adjacency: Adjacency = adjacency
+            start: int, stop: int, centers: NDArray[np.intp] = centers, adjacency: Ragged = adjacency
         ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
             own = centers[start:stop]
             found = fit_heights(positions, find_patches(adjacency, own))
             is_known = found.degrees_of_freedom >= LEAST_DEGREES_OF_FREEDOM
             return is_known, is_known & (found.variance < (CLEAN * unit[own]) ** 2)
 
-        parts = blocks.sized(256).run(look, len(centers))
+        parts = blocks.with_block_size(256).run(look, len(centers))
         is_known, is_quiet = (np.concatenate(part) for part in zip(*parts, strict=True))
         if is_quiet.sum() < SOME_CLEAN * max(is_known.sum(), 1):
             return np.zeros(n_vertices, bool)

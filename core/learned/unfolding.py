@@ -4,12 +4,11 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
-
 import numpy as np
 from numpy.typing import NDArray
 
 from ..averages.ring_means import RingMeans
+from ..mesh.geometry import fan_areas, row_lengths
 from .face_graph import FaceGraph, Polygons
 
 LEAN = 0.5
@@ -87,8 +86,9 @@ def _folded(
         ) -> NDArray[np.bool_]:
             own = np.arange(start, stop) if chosen is None else chosen[start:stop]
             corners = [points.take(corner[own], axis=1) for corner in group.corners]
-            area = fan_areas(corners)
-            spans = sum(((corner - corners[0]) ** 2).sum(axis=0) for corner in corners[1:])
+            arms = [corner - corners[0] for corner in corners[1:]]
+            area = np.stack(fan_areas(arms))
+            spans = sum((arm**2).sum(axis=0) for arm in arms)
             along = (area * normals[:, group.begin + own]).sum(axis=0)
             size = np.sqrt((area * area).sum(axis=0))
             # A face that has collapsed to a line leans nowhere.
@@ -100,19 +100,6 @@ def _folded(
     return found
 
 
-def fan_areas(corners: list[NDArray[np.float32]]) -> NDArray[np.float32]:
-    """Return twice the area vectors of faces, shape (3, n), from their corners, each of shape (3, n)."""
-    arms = [corner - corners[0] for corner in corners[1:]]
-    total = np.zeros_like(corners[0])
-    for (a, b, c), (x, y, z) in pairwise(arms):
-        total[0] += b * z - c * y
-        total[1] += c * x - a * z
-        total[2] += a * y - b * x
-    return total
-
-
 def doubled_areas(corners: list[NDArray[np.float32]]) -> NDArray[np.float32]:
-    """Return twice the areas of faces, shape (n,)."""
-    area = fan_areas(corners)
-    area *= area
-    return np.sqrt(area.sum(axis=0))
+    """Return twice the areas of faces, shape (n,), from their corners, each of shape (3, n)."""
+    return row_lengths(fan_areas([corner - corners[0] for corner in corners[1:]]))

@@ -210,7 +210,7 @@ class FaceWatch:
             wanted = part if faces is None else faces[part]
             folded[part] = dots(areas[:, wanted], self._around(areas, wanted)) < 0.0
 
-        self._blocks.sized(LOOKED_AROUND_AT_ONCE).run(look_around, len(some))
+        self._blocks.with_block_size(LOOKED_AROUND_AT_ONCE).run(look_around, len(some))
         return folded
 
     def _neighbors_disagree(

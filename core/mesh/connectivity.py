@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ..blocks import Blocks
 from .half_edges import find_half_edges, last_corners
+from .ragged import stretches
 from .ring_filling import Rings, fill_rings
 from .surface_mesh import SurfaceMesh
 
@@ -259,5 +260,4 @@ def _fill_unordered(
     order = np.lexsort((rank, pairs[:, 0]))
     vertices = np.flatnonzero(non_manifold)
     counts = np.diff(rings.offset)[vertices]
-    begin = np.repeat(rings.offset[vertices] - (np.cumsum(counts) - counts), counts)
-    rings.ring[begin + np.arange(len(begin))] = pairs[order, 1]
+    rings.ring[stretches(rings.offset[vertices], counts)] = pairs[order, 1]

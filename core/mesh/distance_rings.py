@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .connectivity import Connectivity
+from .ragged import Ragged, stretches
 from .surface_mesh import SurfaceMesh
 
 LARGEST_CLIQUE = 8
@@ -22,33 +23,37 @@ LARGEST_TABLE = 2**22
 """Centers that are searched from at once, and truth values for them; with more, fewer centers at once."""
 
 
-class Adjacency(NamedTuple):
-    """Neighbors of vertex k: `neighbor[offset[k]:offset[k + 1]]`."""
-
-    offset: NDArray[np.int64]
-    neighbor: NDArray[np.int32]
+def edge_adjacency(connectivity: Connectivity) -> Ragged:
+    """Return the neighbors of each vertex along edges, the distance of triangle lattices."""
+    return Ragged(connectivity.ring_offset, connectivity.ring)
 
 
-def edge_adjacency(connectivity: Connectivity) -> Adjacency:
-    """Return adjacency along edges, the distance of triangle lattices."""
-    return Adjacency(connectivity.ring_offset, connectivity.ring)
+def face_adjacency(
+    surface: SurfaceMesh, connectivity: Connectivity, is_counted: NDArray[np.bool_] | None = None
+) -> Ragged:
+    """Return the neighbors of each vertex by a common face, the distance of quad lattices.
 
-
-def face_adjacency(surface: SurfaceMesh, connectivity: Connectivity) -> Adjacency:
-    """Return adjacency by a common face, the distance of quad lattices."""
+    With `is_counted`, a mask of faces, vertices at no such face have no neighbors, and at others only those
+    faces count: that saves most of the time where few vertices matter.
+    """
     n = surface.n_vertices
     sizes = surface.face_sizes()
-    source = np.repeat(np.arange(n), connectivity.valence)
-    keys = [source * n + connectivity.ring]
+    source, target = edge_adjacency(connectivity).row_of_item, connectivity.ring
+    if is_counted is not None:
+        is_near = np.zeros(n, bool)
+        is_near[surface.corner_vertex[np.repeat(is_counted, sizes)]] = True
+        is_kept = is_near[source]
+        source, target = source[is_kept], target[is_kept]
+    keys = [source * n + target]
     for size in range(4, LARGEST_CLIQUE + 1):
-        corners = surface.corner_vertex[surface.face_offset[:-1][sizes == size, None] + np.arange(size)]
+        is_wanted = sizes == size if is_counted is None else (sizes == size) & is_counted
+        corners = surface.corner_vertex[surface.face_offset[:-1][is_wanted, None] + np.arange(size)]
         for step in range(2, size - 1):
             keys.append((corners.astype(np.int64) * n + np.roll(corners, -step, axis=1)).ravel())
     unique = sorted_unique(np.concatenate(keys))
-    owner, neighbor = np.divmod(unique, n)
+    owner, neighbor = np.divmod(unique, max(n, 1))
     apart = owner != neighbor
-    offset = np.concatenate(([0], np.cumsum(np.bincount(owner[apart], minlength=n))))
-    return Adjacency(offset, neighbor[apart].astype(np.int32))
+    return Ragged.of_lengths(np.bincount(owner[apart], minlength=n), neighbor[apart].astype(np.int32))
 
 
 class Ring(NamedTuple):
@@ -59,18 +64,25 @@ class Ring(NamedTuple):
 
 
 def distance_rings(
-    adjacency: Adjacency, centers: NDArray[np.integer], distances: Collection[int]
+    adjacency: Ragged,
+    centers: NDArray[np.integer],
+    distances: Collection[int],
+    *,
+    centers_at_once: int = CENTERS_AT_ONCE,
+    largest_table: int = LARGEST_TABLE,
 ) -> dict[int, Ring]:
     """Find the vertices at exact distances from each of several vertices, by breadth-first search.
 
     Parameters
     ----------
-    adjacency : Adjacency
+    adjacency : Ragged
         Who is one step away.
     centers : ndarray, shape (n,), int
         Different vertices; it is fastest if those that follow each other are close together.
     distances : collection of int
         Wanted distances, at least 1.
+    centers_at_once, largest_table : int, optional
+        Centers that are searched from at once, and truth values for them.
 
     Returns
     -------
@@ -84,13 +96,13 @@ def distance_rings(
     """
     numbers = np.full(len(adjacency.offset) - 1, -1, np.int32)
     parts: list[dict[int, Ring]] = []
-    starts = range(0, len(centers), CENTERS_AT_ONCE)
-    waiting = [(begin, min(begin + CENTERS_AT_ONCE, len(centers))) for begin in starts]
+    starts = range(0, len(centers), centers_at_once)
+    waiting = [(begin, min(begin + centers_at_once, len(centers))) for begin in starts]
     waiting.reverse()
     while waiting:
         begin, end = waiting.pop()
         around = _reachable(adjacency, centers[begin:end], max(distances), numbers)
-        if (end - begin) * len(around) > LARGEST_TABLE and end - begin > 1:
+        if (end - begin) * len(around) > largest_table and end - begin > 1:
             middle = (begin + end) // 2
             waiting += [(middle, end), (begin, middle)]
         else:
@@ -106,13 +118,13 @@ def distance_rings(
 
 
 def _reachable(
-    adjacency: Adjacency, centers: NDArray[np.integer], n_steps: int, numbers: NDArray[np.int32]
+    adjacency: Ragged, centers: NDArray[np.integer], n_steps: int, numbers: NDArray[np.int32]
 ) -> NDArray[np.int32]:
     """Return the vertices at most `n_steps` from any of the centers, ascending; numbers them in `numbers`."""
     found = [centers]
     numbers[centers] = 0
     for _ in range(n_steps):
-        reached = adjacency.neighbor[_ragged(adjacency.offset, found[-1])[0]]
+        reached = adjacency.taken(found[-1])[0]
         reached = reached[numbers[reached] < 0]
         own = np.arange(len(reached), dtype=np.int32)
         numbers[reached] = own  # of the same vertex the last one stays
@@ -123,7 +135,7 @@ def _reachable(
 
 
 def _search(
-    adjacency: Adjacency,
+    adjacency: Ragged,
     first_row: int,
     centers: NDArray[np.integer],
     distances: Collection[int],
@@ -132,9 +144,9 @@ def _search(
 ) -> dict[int, Ring]:
     """Return the rings of centers whose surroundings are `around`; rows are counted from `first_row`."""
     width = len(around) + 1  # the last column is for neighbors that do not matter
-    place, counts = _ragged(adjacency.offset, around)
+    neighbor, counts = adjacency.taken(around)
     begin = np.cumsum(counts) - counts
-    neighbor = numbers[adjacency.neighbor[place]].astype(np.intp)
+    neighbor = numbers[neighbor].astype(np.intp)
     neighbor[neighbor < 0] = width - 1  # beyond the last distance
     widest = int(counts.max(initial=0))
     table = None
@@ -155,8 +167,7 @@ def _search(
             reached += (row * width)[:, None]
         else:  # a few vertices have very many neighbors
             sizes = counts[local]
-            spread = np.repeat(begin[local] - (np.cumsum(sizes) - sizes), sizes)
-            reached = neighbor[spread + np.arange(len(spread))]
+            reached = neighbor[stretches(begin[local], sizes)]
             reached += np.repeat(row * width, sizes)
         fresh = np.zeros(seen.shape, bool)
         fresh.reshape(-1)[reached] = True
@@ -168,16 +179,6 @@ def _search(
         if distance in distances:
             rings[distance] = Ring(row + first_row, around[local].astype(np.intp))
     return rings
-
-
-def _ragged(
-    offset: NDArray[np.int64], vertices: NDArray[np.integer]
-) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return where the neighbors of vertices stand, one vertex after the other, and their numbers."""
-    counts = offset[vertices + 1] - offset[vertices]
-    place = np.repeat(offset[vertices] - (np.cumsum(counts) - counts), counts)
-    place += np.arange(len(place))
-    return place, counts
 
 
 def sorted_unique(values: NDArray[np.int64]) -> NDArray[np.int64]:

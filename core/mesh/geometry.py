@@ -4,10 +4,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from itertools import pairwise
+
 import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
+from .ragged import stretches
 from .surface_mesh import SurfaceMesh
 
 
@@ -50,9 +54,10 @@ def mean_edge_length(
     return sum((blocks or Blocks(1)).run(kernel, surface.n_edges)) / surface.n_corners
 
 
-def row_lengths(rows: NDArray[np.floating]) -> NDArray[np.floating]:
+def row_lengths(rows: Sequence[NDArray[np.floating]] | NDArray[np.floating]) -> NDArray[np.floating]:
     """Return the lengths of vectors with coordinates in rows, shape (3, n); changes the rows."""
-    np.multiply(rows, rows, out=rows)
+    for row in rows:
+        np.multiply(row, row, out=row)
     total = rows[0]
     total += rows[1]
     total += rows[2]
@@ -105,6 +110,30 @@ def area_rows(
     return areas
 
 
+def fan_areas(arms: Sequence[Sequence[NDArray]] | Sequence[NDArray]) -> list[NDArray]:
+    """Return twice the vector areas of faces with as many corners, by axis.
+
+    Parameters
+    ----------
+    arms : sequence of (x, y, z)
+        From the first corner of each face to each of its other corners, in turn; at least two.
+
+    Returns
+    -------
+    list of three ndarrays
+        Coordinates of the sums over the triangles of each fan, in the shape of the arms' coordinates.
+    """
+    totals: list[NDArray] = []
+    for (a, b, c), (x, y, z) in pairwise(arms):
+        parts = (b * z - c * y, c * x - a * z, a * y - b * x)
+        if totals:
+            for total, part in zip(totals, parts, strict=True):
+                total += part
+        else:
+            totals = list(parts)
+    return totals
+
+
 def _half_cross(first: NDArray[np.float64], second: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return half the cross products of vectors, coordinates in rows, shape (3, n)."""
     (a, b, c), (x, y, z) = first, second
@@ -120,7 +149,7 @@ def _newell_areas(
     first = surface.face_offset[:-1][faces]
     counts = surface.face_offset[1:][faces] - first
     begin = np.cumsum(counts) - counts
-    corner = np.arange(counts.sum()) + np.repeat(first - begin, counts)
+    corner = stretches(first, counts)
     following = np.arange(1, len(corner) + 1)
     following[begin + counts - 1] = begin
     corners = points[:, surface.corner_vertex[corner]]
@@ -192,7 +221,7 @@ def face_tips(
     if len(large):
         sizes = counts[large]
         begin = np.cumsum(sizes) - sizes
-        corner = np.arange(sizes.sum()) + np.repeat(first[large] - begin, sizes)
+        corner = stretches(first[large], sizes)
         corners = points.take(surface.corner_vertex[corner], axis=1, mode="clip")
         tips[:, large] = np.add.reduceat(corners, begin, axis=1) / sizes
     return tips

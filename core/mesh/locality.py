@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
+from .ragged import stretches
 from .surface_mesh import SurfaceMesh
 
 SMALLEST = 2**16
@@ -54,17 +55,9 @@ class Reordering:
 
     def vertices_back(self, values: NDArray) -> NDArray:
         """Return one value for each vertex, shape (N, ...), in the original order."""
-        return _back(values, self.vertex_order)
-
-    def faces_back(self, values: NDArray) -> NDArray:
-        """Return one value for each face, shape (F, ...), in the original order."""
-        return _back(values, self.face_order)
-
-
-def _back(values: NDArray, order: NDArray[np.int32]) -> NDArray:
-    result = np.empty_like(values)
-    result[order] = values
-    return result
+        result = np.empty_like(values)
+        result[self.vertex_order] = values
+        return result
 
 
 def is_scattered(surface: SurfaceMesh) -> bool:
@@ -144,7 +137,7 @@ def reorder(
     -------
     Reordering
     """
-    blocks = (blocks or Blocks(1)).sized(_ITEMS_AT_ONCE)
+    blocks = (blocks or Blocks(1)).with_block_size(_ITEMS_AT_ONCE)
     n_vertices = surface.n_vertices
     old_number = np.asarray(vertex_order, np.int32)
     new_number = _inverse(old_number, blocks)
@@ -154,7 +147,7 @@ def reorder(
     sizes = surface.face_sizes()
     filled = np.minimum(surface.face_offset[:-1], max(surface.n_corners - 1, 0))
     firsts = (corner_vertex[filled] if surface.n_corners else sizes, edges[:, 0])
-    orders = blocks.sized(1).run(lambda one, _: _coarse_order(firsts[one], n_vertices), 2)
+    orders = blocks.with_block_size(1).run(lambda one, _: _coarse_order(firsts[one], n_vertices), 2)
     face_order, edge_order = orders
     size = surface.common_face_size()
     offset = surface.face_offset  # if all faces have as many corners, they begin where they did
@@ -174,8 +167,7 @@ def reorder(
             new_edge.take(rows[1].take(faces, axis=0), out=rows[3][start:stop], mode="clip")
             return
         part = slice(offset[start], offset[stop])
-        corner = np.arange(part.start, part.stop)
-        corner += np.repeat(surface.face_offset[faces] - offset[start:stop], sizes[faces])
+        corner = stretches(surface.face_offset[faces], sizes[faces])
         corner_vertex.take(corner, out=moved_vertex[part], mode="clip")
         new_edge.take(surface.corner_edge[corner], out=moved_edge[part], mode="clip")
 

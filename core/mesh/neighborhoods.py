@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .connectivity import Connectivity
+from .distance_rings import edge_adjacency
 
 
 def vertices_within(
@@ -30,12 +31,11 @@ def vertices_within(
         Pairs in ascending order of both; a vertex is not its own member.
     """
     n = connectivity.n_vertices
+    rings = edge_adjacency(connectivity)
     center = member = np.arange(start, stop)
     front_center, front_member = center, member
     for _ in range(n_edges):
-        counts = connectivity.valence[front_member].astype(np.int64)
-        begin = np.repeat(connectivity.ring_offset[front_member] - (np.cumsum(counts) - counts), counts)
-        reached = connectivity.ring[begin + np.arange(len(begin))]
+        reached, counts = rings.taken(front_member)
         keys = np.unique(np.repeat(front_center, counts) * n + reached)
         keys = np.setdiff1d(keys, center * n + member, assume_unique=True)
         front_center, front_member = np.divmod(keys, n)

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ..blocks import Blocks
 from .half_edges import HalfEdges, shifted
+from .ragged import stretches
 from .rings import LONGEST_WALK, Walks, walk
 from .surface_mesh import SurfaceMesh
 
@@ -223,7 +224,7 @@ def _store(fans: _Fans, rings: Rings, n_corners: NDArray[np.intp], non_manifold:
     is_fan = lengths == n_corners[vertices]
     is_fan &= lengths + walks.is_open == rings.offset[vertices + 1] - rings.offset[vertices]
     non_manifold[vertices[~is_fan]] = True
-    place = np.arange(len(walks.items)) + np.repeat(rings.offset[vertices] - walks.offset[:-1], lengths)
+    place = stretches(rings.offset[vertices], lengths)
     good = np.repeat(is_fan, lengths)
     rings.ring[place[good]] = fans.pointed[walks.items[good]]
     rings.corner[place[good]] = walks.items[good] // fans.items_per_corner

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ..errors import RegionError
 from .edge_list import find_edges
 from .linking import linked_groups
+from .ragged import stretches
 from .surface_mesh import SurfaceMesh
 
 
@@ -161,7 +162,7 @@ def _close_pairs(points: NDArray[np.float64], distance: float) -> tuple[NDArray[
         end = np.searchsorted(sorted_key, wanted + 1, side="right")
         counts = end - begin
         one = np.repeat(np.arange(len(points)), counts)
-        other = order[np.arange(counts.sum()) + np.repeat(begin - (np.cumsum(counts) - counts), counts)]
+        other = order[stretches(begin, counts)]
         step = points[one] - points[other]
         is_close = (np.einsum("pi,pi->p", step, step) <= distance * distance) & (one != other)
         pairs.append((one[is_close], other[is_close]))

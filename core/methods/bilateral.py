@@ -43,7 +43,7 @@ def bilateral_filter(problem: Problem) -> Solution:
     noisy, surface, settings, callback = problem.noisy, problem.surface, problem.settings, problem.callback
     dtype = noisy.dtype.type
     points = noisy.copy()
-    blocks = problem.blocks.sized(min(problem.blocks.block_size, VERTICES_AT_ONCE))
+    blocks = problem.blocks.with_block_size(min(problem.blocks.block_size, VERTICES_AT_ONCE))
     reach = max(1, ceil(2.0 * settings.sigma_c))
     pairs = blocks.run(
         lambda start, stop: vertices_within(problem.connectivity, start, stop, reach), noisy.shape[1]

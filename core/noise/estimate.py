@@ -152,7 +152,7 @@ def _residuals(
             residuals, is_small & (residuals.degrees_of_freedom >= LEAST_DEGREES_OF_FREEDOM)
         )
 
-    parts = blocks.sized(PATCHES_AT_ONCE).run(kernel, len(centers))
+    parts = blocks.with_block_size(PATCHES_AT_ONCE).run(kernel, len(centers))
     residuals = Residuals(*(np.concatenate(column) for column in zip(*parts, strict=True)))
     return residuals if len(residuals.variance) else None
 

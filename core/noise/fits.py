@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .patches import Patches
+from ..mesh.ragged import Ragged
 
 _RIDGE = 1e-9
 """Added to the diagonal of the normal equations, relative to it: fits with coefficients that the vertices do
@@ -44,17 +44,17 @@ class Residuals(NamedTuple):
     """Residual of the center by its own standard deviation as the patch estimates it, shape (n,)."""
 
 
-def fit_heights(positions: NDArray[np.float64], patches: Patches) -> Residuals:
+def fit_heights(positions: NDArray[np.float64], patches: Ragged) -> Residuals:
     """Fit a cubic polynomial to the heights of each patch over its principal plane.
 
     Parameters
     ----------
     positions : ndarray, shape (N, 3), float64
         Positions, near the origin.
-    patches : Patches
-        Vertices of each patch; none is empty.
+    patches : Ragged
+        Vertices of each patch, its center first; none is empty.
     """
-    row, begin = patches.row, patches.offset[:-1]
+    row, begin = patches.row_of_item, patches.offset[:-1]
     heights, tangents, extents = _principal_heights(positions, patches)
     inverse = np.divide(1.0, extents, out=np.zeros_like(extents), where=extents > _FLAT * extents[:, 1:])
     u, w = (tangents * inverse[row]).T
@@ -127,12 +127,12 @@ class _Quadric:
 
 
 def _principal_heights(
-    positions: NDArray[np.float64], patches: Patches
+    positions: NDArray[np.float64], patches: Ragged
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
     """Return heights (P,) over the plane of least variance, coordinates (P, 2) in it, and extents (n, 2)."""
-    row, begin = patches.row, patches.offset[:-1]
+    row, begin = patches.row_of_item, patches.offset[:-1]
     counts = np.diff(patches.offset)
-    points = positions[patches.vertex]
+    points = positions[patches.items]
     points -= points[begin][row]  # digits: the mean is taken near the center
     points -= (np.add.reduceat(points, begin) / counts[:, None])[row]
     covariance = np.add.reduceat(points[:, :, None] * points[:, None, :], begin) / counts[:, None, None]

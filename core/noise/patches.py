@@ -4,29 +4,16 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.connectivity import Connectivity
-from ..mesh.distance_rings import LARGEST_CLIQUE, Adjacency, edge_adjacency, sorted_unique
+from ..mesh.distance_rings import edge_adjacency, face_adjacency, sorted_unique
+from ..mesh.ragged import Ragged
 from ..mesh.surface_mesh import SurfaceMesh
 
 MOST_STEPS = 256
 """A patch does not grow where its next ring would be found over more steps than this."""
-
-
-class Patches(NamedTuple):
-    """Vertices around centers: those of patch i are `vertex[offset[i]:offset[i + 1]]`, its center first."""
-
-    offset: NDArray[np.int64]
-    vertex: NDArray[np.int64]
-
-    @property
-    def row(self) -> NDArray[np.intp]:
-        """The patch of each entry of `vertex`."""
-        return np.repeat(np.arange(len(self.offset) - 1), np.diff(self.offset))
 
 
 def spread_sample(positions: NDArray[np.float64], candidates: NDArray[np.intp], n: int) -> NDArray[np.intp]:
@@ -42,7 +29,7 @@ def spread_sample(positions: NDArray[np.float64], candidates: NDArray[np.intp], 
     return candidates[order[(np.arange(n) * len(candidates)) // n]]
 
 
-def local_adjacency(surface: SurfaceMesh, connectivity: Connectivity, centers: NDArray[np.intp]) -> Adjacency:
+def local_adjacency(surface: SurfaceMesh, connectivity: Connectivity, centers: NDArray[np.intp]) -> Ragged:
     """Return adjacency by a common face, known at the centers and at what is adjacent to them.
 
     At other vertices of a mesh with larger faces than triangles the lists are empty, which saves most of the
@@ -52,32 +39,20 @@ def local_adjacency(surface: SurfaceMesh, connectivity: Connectivity, centers: N
         return edge_adjacency(connectivity)
     near = np.zeros(surface.n_vertices, bool)
     near[centers] = True
-    size = surface.face_sizes()
-    face = np.repeat(np.arange(surface.n_faces), size)
+    face = np.repeat(np.arange(surface.n_faces), surface.face_sizes())
     for _ in range(2):
         touched = np.zeros(surface.n_faces, bool)
         touched[face[near[surface.corner_vertex]]] = True
         near[surface.corner_vertex[touched[face]]] = True
-    source = np.repeat(np.arange(surface.n_vertices), connectivity.valence)
-    kept = near[source]
-    keys = [source[kept] * surface.n_vertices + connectivity.ring[kept]]
-    for n_corners in range(4, LARGEST_CLIQUE + 1):
-        faces = np.flatnonzero(touched & (size == n_corners))
-        corners = surface.corner_vertex[surface.face_offset[faces, None] + np.arange(n_corners)]
-        for step in range(2, n_corners - 1):
-            keys.append((corners.astype(np.int64) * surface.n_vertices + np.roll(corners, -step, 1)).ravel())
-    owner, neighbor = np.divmod(sorted_unique(np.concatenate(keys)), max(surface.n_vertices, 1))
-    kept = owner != neighbor
-    count = np.bincount(owner[kept], minlength=surface.n_vertices)
-    return Adjacency(np.concatenate(([0], np.cumsum(count))), neighbor[kept].astype(np.int32))
+    return face_adjacency(surface, connectivity, touched)
 
 
-def find_patches(adjacency: Adjacency, centers: NDArray[np.intp]) -> Patches:
-    """Return each center with the vertices that are one or two steps away.
+def find_patches(adjacency: Ragged, centers: NDArray[np.intp]) -> Ragged:
+    """Return the patch of each center: itself, then the vertices that are one or two steps away.
 
     Parameters
     ----------
-    adjacency : Adjacency
+    adjacency : Ragged
         Who is one step away.
     centers : ndarray, shape (n,), intp
         Vertices in the middle of the patches.
@@ -91,11 +66,11 @@ def find_patches(adjacency: Adjacency, centers: NDArray[np.intp]) -> Patches:
     keys = np.concatenate((center, first, second))
     order = np.argsort(keys // n_vertices, kind="stable")  # the center stays first
     row, vertex = np.divmod(keys[order], n_vertices)
-    return Patches(np.searchsorted(row, np.arange(len(centers) + 1)), vertex)
+    return Ragged(np.searchsorted(row, np.arange(len(centers) + 1)), vertex)
 
 
 def _next_ring(
-    adjacency: Adjacency, front: NDArray[np.int64], known: NDArray[np.int64], n_patches: int
+    adjacency: Ragged, front: NDArray[np.int64], known: NDArray[np.int64], n_patches: int
 ) -> NDArray[np.int64]:
     """Return the keys, patch times number of vertices plus vertex, that are one step beyond the front."""
     n_vertices = len(adjacency.offset) - 1
@@ -103,8 +78,7 @@ def _next_ring(
     counts = adjacency.offset[vertex + 1] - adjacency.offset[vertex]
     grows = np.bincount(row, counts, minlength=n_patches)[row] <= MOST_STEPS
     row, vertex, counts = row[grows], vertex[grows], counts[grows]
-    begin = np.repeat(adjacency.offset[vertex] - (np.cumsum(counts) - counts), counts)
-    reached = adjacency.neighbor[begin + np.arange(len(begin))] + np.repeat(row * n_vertices, counts)
+    reached = adjacency.taken(vertex)[0] + np.repeat(row * n_vertices, counts)
     reached = sorted_unique(reached.astype(np.int64))
     place = np.minimum(np.searchsorted(known, reached), len(known) - 1)
     return reached[known[place] != reached]

@@ -17,6 +17,10 @@ from .choices import Choice
 class SettingInfo:
     """What a user interface needs to know about one setting.
 
+    Its words stand beside its range, as a docstring stands beside its function: the library's errors, the
+    options of the command line and Blender's properties all say them, and a table elsewhere would have to
+    follow each change.
+
     `soft_maximum` is where a slider ends; typing may go up to `maximum`. `symbol` is the paper's letter.
     `methods` are the methods that use the setting; empty for all. `own` is an attribute by which an object
     of one's own is known that may stand for a choice. `unit` is LENGTH for lengths in the scene.

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..blocks import Blocks
+from ..mesh.ragged import stretches
 from .stencil import Stencil
 
 Place = tuple[int, int]
@@ -88,8 +89,7 @@ class StencilBuilder:
             Which rows those are.
         """
         row = np.repeat(np.arange(len(begin)), counts)
-        place = np.arange(len(row)) + np.repeat(begin - (np.cumsum(counts) - counts), counts)
-        members = values[place]
+        members = values[stretches(begin, counts)]
         row, members = row[members >= 0], members[members >= 0]
         found = np.bincount(row, minlength=len(begin)).astype(np.int64)
         is_filled = found > 0
@@ -118,7 +118,7 @@ class StencilBuilder:
         offset = np.concatenate(([0], np.cumsum(counts)))
         wanted = points - self.n_vertices
         sizes = counts[wanted]
-        place = np.arange(sizes.sum()) + np.repeat(offset[wanted] - (np.cumsum(sizes) - sizes), sizes)
+        place = stretches(offset[wanted], sizes)
         front = np.cumsum(sizes) - sizes
         self._counts.append(sizes + 1)
         self._vertices.append(np.insert(vertices[place], front, centers).astype(np.int32))

@@ -13,6 +13,7 @@ from ..frames import FilterBank
 from ..frames.filter_bank import CELL_CORNERS
 from ..mesh.connectivity import Connectivity
 from ..mesh.half_edges import find_half_edges
+from ..mesh.ragged import stretches
 from ..mesh.surface_mesh import SurfaceMesh
 from .builder import StencilBuilder
 from .walks import Grid
@@ -140,7 +141,7 @@ def _set_orbit_means(
     here = corners[cells, k]
     counts = connectivity.valence[here]
     front = np.cumsum(counts) - counts
-    spokes = np.arange(counts.sum()) + np.repeat(connectivity.ring_offset[here] - front, counts)
+    spokes = stretches(connectivity.ring_offset[here], counts)
     row = np.repeat(cells, counts)
     target = connectivity.ring[spokes]
     is_way_out = (target != corners[row, (k + 1) % 4]) & (target != corners[row, k - 1])

@@ -13,8 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
-from ..mesh.distance_rings import Adjacency, Ring, distance_rings
+from ..mesh.distance_rings import Ring, distance_rings
 from ..mesh.locality import spatial_order
+from ..mesh.ragged import Ragged
 from .members import Members
 from .straight import TIE
 
@@ -28,7 +29,7 @@ CANDIDATES_AT_ONCE = 2**15
 def dilate(
     members: Members,
     vertices: NDArray[np.floating],
-    adjacency: Adjacency,
+    adjacency: Ragged,
     level: int,
     far_distance: int,
     blocks: Blocks,
@@ -41,7 +42,7 @@ def dilate(
         Members of level 0.
     vertices : ndarray, shape (N, 3)
         Positions on which angles are measured: the surface handed to this level.
-    adjacency : Adjacency
+    adjacency : Ragged
         What counts as one step.
     level : int
         Level l; near members are looked for on the 2^l-ring.
@@ -76,7 +77,7 @@ def dilate(
             if far is not None:
                 _dilate_once(points, far, offset, centers, rings[int(step) * far_distance], order)
 
-    blocks.sized(max(1, CANDIDATES_PER_BLOCK // (8 * max(distances)))).run(
+    blocks.with_block_size(max(1, CANDIDATES_PER_BLOCK // (8 * max(distances)))).run(
         kernel, members.connectivity.n_vertices
     )
     return Members(members.connectivity, near, far)

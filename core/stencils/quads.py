@@ -123,7 +123,7 @@ def _fill_straight(
             kept = np.sort(np.stack([place for pair in positions for place in pair]), axis=0)
             _set_alternating(builder, vertices, part, np.take_along_axis(ring, kept, axis=0))
 
-        blocks.sized(max(1, 2**18 // (4 * int(value) ** 2))).run(kernel, len(group))
+        blocks.with_block_size(max(1, 2**18 // (4 * int(value) ** 2))).run(kernel, len(group))
     return wanted[~is_served]
 
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from ..frames import FilterBank
 from ..mesh.connectivity import Connectivity
+from ..mesh.ragged import stretches
 from ..mesh.surface_mesh import SurfaceMesh
 from .builder import Place, StencilBuilder
 from .cells import fill_cells, find_cells
@@ -148,9 +149,8 @@ def _fill_orbit_means(
     """Fill every tap of irregular vertices with the mean over its orbit: all walks of its shape."""
     sites = sites[connectivity.valence[sites] >= 2]
     counts = connectivity.valence[sites]
-    begin = connectivity.ring_offset[sites]
     front = np.cumsum(counts) - counts
-    spokes = np.arange(counts.sum()) + np.repeat(begin - front, counts)
+    spokes = stretches(connectivity.ring_offset[sites], counts)
     swing = 2 if len(ring) == 6 else 1
     means: dict[tuple[int, int], tuple[NDArray[np.int32], NDArray[np.bool_]]] = {}
     for place in builder.row_of:

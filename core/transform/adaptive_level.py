@@ -106,7 +106,7 @@ class AdaptiveLevel:
         dtype: DTypeLike,
         blocks: Blocks,
     ) -> None:
-        self._blocks = blocks.sized(1)
+        self._blocks = blocks.with_block_size(1)
         self._dtype = np.dtype(dtype)
         self._n = len(neighbors.is_kept)
         self._chunks = _make_chunks(neighbors, family)

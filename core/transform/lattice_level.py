@@ -70,7 +70,7 @@ class LatticeLevel:
             raise FrameError(f"The stencil has {stencil.n_taps} taps, but {bank.name} has {bank.n_taps}.")
         bands = np.arange(bank.n_bands) if bands is None else bands
         self.stencil = stencil
-        blocks = blocks.sized(min(blocks.block_size, _block_size(stencil.n_taps)))
+        blocks = blocks.with_block_size(min(blocks.block_size, _block_size(stencil.n_taps)))
         self._blocks = blocks
         self._masks = bank.masks[bands]
         self._product = MaskProduct(self._masks, dtype)

@@ -11,7 +11,6 @@ from ..blocks import Blocks
 from ..errors import FrameError
 from ..frames import BANKS, FilterBank
 from ..frames.valence_masks import FAMILIES
-from ..memory import give_back
 from ..mesh.connectivity import Connectivity, connect
 from ..mesh.distance_rings import distance_rings, edge_adjacency, face_adjacency
 from ..mesh.surface_mesh import SurfaceMesh
@@ -136,7 +135,6 @@ def _adaptive_transform(
     stages: list[AdaptiveLevel] = []
     del members, dilated, low
     while neighbors:
-        give_back(surface.n_vertices)
         level = AdaptiveLevel(neighbors.pop(), family, measure, dtype, blocks)
         stages.insert(0, level)
         level.prepare()  # now, as later there is less memory left

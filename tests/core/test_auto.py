@@ -82,7 +82,7 @@ MESH = pytest.mark.parametrize("name", MOVED)
 
 
 @pytest.fixture(autouse=True)
-def alone(monkeypatch):
+def on_calling_thread(monkeypatch):
     """One thread unless told, as these meshes are too small for more."""
     monkeypatch.setattr(blocks, "available_cores", lambda: 1)
 

@@ -18,7 +18,7 @@ pytestmark = pytest.mark.filterwarnings("error")
 
 
 @pytest.fixture(autouse=True)
-def alone(monkeypatch):
+def on_calling_thread(monkeypatch):
     monkeypatch.setattr(blocks, "available_cores", lambda: 1)
 
 

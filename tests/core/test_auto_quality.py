@@ -26,7 +26,7 @@ BOUNDS = {
 
 
 @pytest.fixture(autouse=True)
-def alone(monkeypatch):
+def on_calling_thread(monkeypatch):
     """One thread, as these meshes are too small for more."""
     monkeypatch.setattr(blocks, "available_cores", lambda: 1)
 

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from checks import TRIANGLE_PRESETS, assert_same_bits, preset_settings
 from framelet.core import SurfaceMesh, add_noise, compare, connect, denoise, make_stencil
-from framelet.core.blocks import BLOCK_SIZE, Blocks, Stopped, _Numbers, available_cores
+from framelet.core.blocks import BLOCK_SIZE, Blocks, _Numbers, available_cores
 from framelet.core.mesh.geometry import mean_edge_length
 from meshes import flipped, mixed_sheet, noisy, pyramid, triangle_grid, triangle_torus, turned_over, union
 
@@ -127,13 +127,13 @@ def test_results_come_in_the_order_of_the_blocks():
         with Blocks(n_threads, block_size=4) as blocks:
             assert blocks.run(lambda start, stop: (start, stop), 10) == [(0, 4), (4, 8), (8, 10)]
             assert blocks.run(lambda start, stop: (start, stop), 0) == []
-            assert blocks.sized(7).run(lambda start, stop: stop - start, 10) == [7, 3]
+            assert blocks.with_block_size(7).run(lambda start, stop: stop - start, 10) == [7, 3]
 
 
 def test_threads_may_be_entered_again():
     """What was made from them, other block sizes too, works before, in between and after."""
     blocks = Blocks(2, block_size=4)
-    other = blocks.sized(7).sized(3)
+    other = blocks.with_block_size(7).with_block_size(3)
     for _ in range(2):
         assert other.run(lambda start, stop: stop - start, 10) == [3, 3, 3, 1]
         with blocks:
@@ -200,7 +200,7 @@ def test_questions_are_asked_once_for_each_block_on_the_calling_thread(threads):
 
     with Blocks(threads, block_size=1).stopped_by(should_stop) as blocks:
         blocks.run(kernel, 50)
-        blocks.sized(20).run(kernel, 50)
+        blocks.with_block_size(20).run(kernel, 50)
     assert asked == [threading.current_thread()] * 53
     assert sorted(worked) == sorted([*range(50), 0, 20, 40])
 
@@ -247,17 +247,6 @@ def test_tasks_run_together_and_results_keep_their_order(threads):
             "second",
             "third",
         ]
-
-
-def test_alone_runs_on_the_calling_thread_and_stops_with_the_others():
-    stops = iter([False, False, True])
-    with Blocks(2, 10).stopped_by(lambda: next(stops)) as blocks:
-        alone = blocks.alone()
-        names = alone.sized(5).run(lambda start, stop: threading.current_thread().name, 10)
-        assert names == [threading.current_thread().name] * 2
-        with pytest.raises(Stopped):
-            alone.run(lambda start, stop: None, 10)
-        assert blocks.n_threads == 2 and alone.block_size == 10
 
 
 def test_every_block_is_taken_once():

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from framelet.core import BANKS, SurfaceMesh, connect, make_stencil
 from framelet.core.blocks import Blocks
-from framelet.core.mesh import distance_rings as distance_rings_module
 from framelet.core.mesh.distance_rings import distance_rings, edge_adjacency, face_adjacency
 from framelet.core.stencils import dilation
 from framelet.core.stencils.dilation import dilate
@@ -62,16 +61,14 @@ def test_matches_the_plain_search(size, name, level, rng):
 
 @pytest.mark.parametrize("size", [3, 4])
 @pytest.mark.parametrize("largest", [1, 200, 2**22])
-def test_rings_are_those_of_a_breadth_first_search(size, largest, rng, monkeypatch):
+def test_rings_are_those_of_a_breadth_first_search(size, largest, rng):
     """In one table, in several smaller ones, and with centers in any order."""
-    monkeypatch.setattr(distance_rings_module, "LARGEST_TABLE", largest)
-    monkeypatch.setattr(distance_rings_module, "CENTERS_AT_ONCE", 40)
     mesh = union(MESHES["mixed sheet"](), MESHES["soup"](), star(5, 2, size)[0])
     connectivity = connect(mesh)
     adjacency = face_adjacency(mesh, connectivity) if size == 4 else edge_adjacency(connectivity)
     near = neighbors_by(MeshTwin(mesh), size)
     centers = rng.permutation(mesh.n_vertices)[5:]
-    rings = distance_rings(adjacency, centers, {1, 3, 4})
+    rings = distance_rings(adjacency, centers, {1, 3, 4}, centers_at_once=40, largest_table=largest)
     assert set(rings) == {1, 3, 4}
     for row, v in enumerate(centers.tolist()):
         steps = distances(near, v)

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from checks import assert_same_bits
 from framelet.core import connect
-from framelet.core.averages import means as means_module
 from framelet.core.averages import ring_means
 from framelet.core.averages.means import Means, padded
-from framelet.core.averages.ragged import Ragged, faces_of_vertices
 from framelet.core.averages.ring_means import RingMeans
+from framelet.core.mesh.corner_lists import faces_of_vertices
+from framelet.core.mesh.ragged import Ragged
 from kinds import ALONE, BLOCKS, KIND, KINDS
 from learned_twins import averaging, low_pass, ring_matrix
 from meshes import MESHES, faces_of, triangle_grid
@@ -22,13 +22,12 @@ ROUNDING = 1e-12
 @BLOCKS
 @pytest.mark.parametrize("at_once", [1, 50, 2**15])
 @pytest.mark.parametrize("is_square", [True, False])
-def test_means(kind, blocks, at_once, is_square, rng, monkeypatch):
-    monkeypatch.setattr(means_module, "MEMBERS_AT_ONCE", at_once)
-    monkeypatch.setattr(means_module, "ITEMS_IN_BLOCK", 10)
+def test_means(kind, blocks, at_once, is_square, rng):
     mesh = KINDS[kind]()
     rows = [rng.integers(0, mesh.n_vertices, rng.integers(0, 9)) for _ in range(mesh.n_vertices)]
     offset = np.concatenate(([0], np.cumsum([len(row) for row in rows])))
-    means = Means(Ragged(offset, np.concatenate(rows).astype(np.int32)), blocks, is_square=is_square)
+    rows_of_items = Ragged(offset, np.concatenate(rows).astype(np.int32))
+    means = Means(rows_of_items, blocks, is_square=is_square, items_in_block=10, members_at_once=at_once)
     field = rng.normal(size=(mesh.n_vertices, 4))
     found = means.outward(means.mean(means.inward(field) if is_square else field))
     expected = [field[row].mean(axis=0) if len(row) else np.zeros(4) for row in rows]

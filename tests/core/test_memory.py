@@ -136,26 +136,3 @@ def test_the_estimate_knows_vertices_of_high_valence(changes):
 
 def test_faces_of_the_test_meshes_are_what_they_are_called(surfaces):
     assert {len(face) for face in faces_of(surfaces["quads"])} == {4}
-
-
-def test_freed_memory_is_given_back_after_work_on_many_items(monkeypatch):
-    calls = []
-
-    class Library:
-        def __init__(self, name):
-            assert name is None
-
-        def malloc_trim(self, pad):
-            calls.append(pad)
-
-    monkeypatch.setattr("ctypes.CDLL", Library)
-    monkeypatch.setattr(module.sys, "platform", "linux")
-    module.give_back(module.MANY_ITEMS - 1)
-    assert not calls
-    module.give_back(module.MANY_ITEMS)
-    assert calls == [0]
-    monkeypatch.delattr(Library, "malloc_trim")  # as with other C libraries
-    module.give_back(module.MANY_ITEMS)
-    monkeypatch.setattr(module.sys, "platform", "win32")
-    module.give_back(module.MANY_ITEMS)
-    assert calls == [0]

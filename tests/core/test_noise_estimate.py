@@ -176,7 +176,7 @@ def test_fits_and_their_slow_twin(rng):
     patches = find_patches(local_adjacency(mesh, connectivity, centers), centers)
     found = fit_heights(mesh.vertices, patches)
     for k in range(len(centers)):
-        points = mesh.vertices[patches.vertex[patches.offset[k] : patches.offset[k + 1]]]
+        points = mesh.vertices[patches.items[patches.offset[k] : patches.offset[k + 1]]]
         points = points - points.mean(axis=0)
         w, u, h = (points @ axis for axis in np.linalg.svd(points)[2])
         deviation = np.sqrt((points**2).sum(axis=1).mean())
@@ -224,7 +224,7 @@ def test_patches_and_their_slow_twin(name):
     for k, center in enumerate(centers):
         first = near[center] | {center}
         expected = first.union(*(near[v] for v in first))
-        patch = patches.vertex[patches.offset[k] : patches.offset[k + 1]]
+        patch = patches.items[patches.offset[k] : patches.offset[k + 1]]
         assert patch[0] == center
         assert len(set(patch.tolist())) == len(patch)
         assert set(patch.tolist()) == expected

@@ -112,18 +112,6 @@ def test_only_arrays_that_can_be_written_to_are_copied(rng):
     assert not np.shares_memory(prepare(view).surface.vertices, mesh.vertices)
 
 
-def test_memory_is_given_back_only_after_something_was_prepared(rng, monkeypatch):
-    calls = []
-    monkeypatch.setattr(module, "give_back", calls.append)
-    mesh, cache = noisy(triangle_grid(), rng), PreparationCache()
-    settings = settings_of("TRI_2")
-    for changed in (settings, settings.with_changes(lambda_=0.9), settings.with_changes(mu=3.0)):
-        denoise(read_only(mesh), changed, prepared=cache)
-    assert calls == [mesh.n_vertices]
-    denoise(mesh, settings)
-    assert calls == [mesh.n_vertices] * 2
-
-
 @pytest.mark.parametrize("name", [item.name for item in fields(SurfaceMesh)])
 def test_any_other_array_does_not_fit(name, rng):
     mesh = noisy(triangle_torus(), rng)

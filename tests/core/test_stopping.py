@@ -86,7 +86,7 @@ def test_blocks_ask_before_each_block(n_threads):
     done = []
     should_stop, calls = asked(4)
     with pytest.raises(Stopped), Blocks(n_threads, block_size=10).stopped_by(should_stop) as blocks:
-        blocks.sized(5).run(lambda start, stop: done.append(start), 50)
+        blocks.with_block_size(5).run(lambda start, stop: done.append(start), 50)
     assert len(calls) == 4
     assert set(done) >= {0, 5, 10}
     if n_threads == 1:

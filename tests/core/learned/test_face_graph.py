@@ -25,8 +25,8 @@ GRAPHS = {
 GRAPH = pytest.mark.parametrize("name", GRAPHS)
 
 
-def graph_of(mesh, blocks=ALONE):
-    return FaceGraph(mesh, connect(mesh), blocks)
+def graph_of(mesh, blocks=ALONE, **sizes):
+    return FaceGraph(mesh, connect(mesh), blocks, **sizes)
 
 
 @GRAPH
@@ -72,9 +72,8 @@ def test_fields_of_faces_are_renumbered(name, rng):
 
 
 @BLOCKS
-def test_blocks_see_each_face_and_each_pair_once(blocks, monkeypatch):
-    monkeypatch.setattr("framelet.core.learned.face_graph.FACES_AT_ONCE", 7)
-    graph = graph_of(MESHES["mixed sheet"](), blocks)
+def test_blocks_see_each_face_and_each_pair_once(blocks):
+    graph = graph_of(MESHES["mixed sheet"](), blocks, faces_at_once=7)
     faces, pairs = np.zeros(graph.n_faces, int), np.zeros(graph.n_pairs, int)
 
     def see(own, polygons):

@@ -12,7 +12,7 @@ import pytest
 from checks import assert_same_bits, random_rotation
 from framelet.core import connect
 from framelet.core.blocks import Blocks
-from framelet.core.learned import face_graph, net
+from framelet.core.learned import net
 from framelet.core.learned.engine import FaceEngine
 from kinds import ALONE, KINDS
 from learned_twins import pairs_of, slow_net
@@ -53,8 +53,8 @@ def random_arrays(rng, n_layers=N_LAYERS):
     return {name: array.astype(np.float32) for name, array in arrays.items()}
 
 
-def described(mesh, blocks=ALONE):
-    engine = FaceEngine(mesh, connect(mesh), blocks)
+def described(mesh, blocks=ALONE, **sizes):
+    engine = FaceEngine(mesh, connect(mesh), blocks, **sizes)
     return engine, *engine.describe(np.ascontiguousarray(mesh.vertices.T, np.float32))
 
 
@@ -94,13 +94,12 @@ def test_the_net_is_a_loop_over_faces_and_pairs(name, rng):
 
 @pytest.mark.parametrize("name", ["mixed sheet", "polygons"])
 @pytest.mark.usefixtures("short")
-def test_blocks_and_threads_do_not_change_a_bit(name, rng, monkeypatch):
+def test_blocks_and_threads_do_not_change_a_bit(name, rng):
     mesh, arrays = noisy(NETS[name](), rng), random_arrays(rng)
     results = []
     for size, threads in ((4096, 1), (5, 1), (5, 3)):
-        monkeypatch.setattr(face_graph, "FACES_AT_ONCE", size)
         with Blocks(threads) as blocks:
-            engine, scales, features = described(mesh, blocks)
+            engine, scales, features = described(mesh, blocks, faces_at_once=size)
             results.append(net.Net(arrays).normals(scales, features, engine.graph))
     assert_same_bits(results[2], results[1])
     # Products of other sizes may be summed up in another order.
