@@ -178,6 +178,18 @@ def check_indices(
     )
 
 
+def members(owner: NDArray[np.integer], n_owners: int) -> list[NDArray[np.int64]]:
+    """Return the elements of each owner, ascending, whatever their number; negative owners own nothing.
+
+    Examples
+    --------
+    >>> [each.tolist() for each in members(np.array([1, 0, -1, 1]), 3)]
+    [[1], [0, 3], []]
+    """
+    order = np.argsort(owner, kind="stable")
+    return np.split(order, np.searchsorted(owner[order], np.arange(n_owners + 1)))[1:-1]
+
+
 def stem_of(path: Path) -> str:
     """Return what a surface is called that has no name in its file."""
     return path.stem or path.name

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import text
-from .mesh_file import FileError, MeshFile, Part
+from .mesh_file import FileError, MeshFile, Part, members
 
 _SLASH = ord("/")
 
@@ -123,13 +123,13 @@ class ObjFile(MeshFile):
         np.maximum.at(most, vertex, owner)
         if not len(vertex) or (least < most).any():
             return whole
-        parts = []
-        for number in range(-1, len(self._objects)):
-            vertices = np.flatnonzero(most == number)
-            if len(vertices):
-                name = self._objects[number][0] if number >= 0 else ""
-                parts.append(Part(name or self.name, np.flatnonzero(of_face == number), vertices))
-        return parts
+        names = ["", *(name for name, _face, _line in self._objects)]  # the first faces may have no object
+        faces, vertices = members(of_face + 1, len(names)), members(most + 1, len(names))
+        return [
+            Part(name or self.name, own_faces, own_vertices)
+            for name, own_faces, own_vertices in zip(names, faces, vertices, strict=True)
+            if len(own_vertices)
+        ]
 
     def weights(self, group: str) -> NDArray[np.float64] | None:
         """Return 1 for the vertices of the faces of a group; see `MeshFile.weights`."""

@@ -64,6 +64,90 @@ def test_ply(command, tmp_path, order, coordinate):
     np.testing.assert_allclose(moved.positions, expected, atol=2e-5)
 
 
+def with_normals(points, faces, normals, order, kind="float"):
+    """Return a PLY file with normals."""
+    head = f"ply\nformat {order} 1.0\nelement vertex {len(points)}\n"
+    head += "".join(f"property {kind} {name}\n" for name in ("x", "nx", "y", "ny", "z", "nz"))
+    head += f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n"
+    rows = np.stack((points, normals), axis=2).reshape(-1, 6)
+    if order == "ascii":
+        body = "".join(" ".join(f"{number:.6f}" for number in row) + "\n" for row in rows)
+        body += "".join(f"3 {a} {b} {c}\n" for a, b, c in faces)
+        return (head + body).encode()
+    sign = "<" if "little" in order else ">"
+    corners = np.zeros(len(faces), [("n", "u1"), ("v", sign + "i4", 3)])
+    corners["n"], corners["v"] = 3, faces
+    return (
+        head.encode() + rows.astype(sign + ("f4" if kind == "float" else "f8")).tobytes() + corners.tobytes()
+    )
+
+
+def normals_of(points, faces):
+    """Return the mean normal of the triangles at each vertex, by area."""
+    total = np.zeros(points.shape)
+    areas = np.cross(points[faces[:, 1]] - points[faces[:, 0]], points[faces[:, 2]] - points[faces[:, 0]])
+    for column in faces.T:
+        np.add.at(total, column, areas)
+    return total / np.linalg.norm(total, axis=1, keepdims=True)
+
+
+@pytest.mark.parametrize("kind", ["float", "double"])
+@pytest.mark.parametrize("order", ORDERS)
+def test_normals_of_a_ply_follow(command, tmp_path, order, kind):
+    points, faces = sheet()
+    normals = normals_of(points, faces)
+    normals[7] *= 2.5  # as long as it was
+    normals[9] = 0.0  # has none
+    source, target = tmp_path / "in.ply", tmp_path / "out.ply"
+    source.write_bytes(with_normals(points, faces, normals, order, kind))
+    result = command("denoise", source, target, *POSITIONS)
+    assert result.code == 0 and "normals" not in result.err
+    after = open_file(target)
+    places, kinds = after._normals
+    found = np.stack([after._layout.values(at, each) for at, each in zip(places, kinds, strict=True)], axis=1)
+    expected = normals_of(after.positions, faces)
+    expected[7] *= 2.5
+    expected[9] = 0.0
+    np.testing.assert_allclose(found, expected, atol=2e-5)
+    assert np.abs(found - normals).max() > 0.1
+
+
+def test_normals_of_a_ply_keep_their_side_and_their_edges(tmp_path):
+    points, faces = sheet()
+    single = points.astype(np.float32).astype(float)
+    moved = single + [0.0, 0.0, 0.25] * (single[:, :1] > 5.5)
+
+    def renewed(normals, points, faces, moved):
+        (tmp_path / "in.ply").write_bytes(with_normals(points, faces, normals, "binary_little_endian"))
+        (tmp_path / "out.ply").write_bytes(open_file(tmp_path / "in.ply").patched(moved))
+        rows = np.frombuffer(
+            (tmp_path / "out.ply").read_bytes().split(b"end_header\n", 1)[1], "<f4", 6 * len(points)
+        )
+        return rows.reshape(-1, 6)[:, 1::2]
+
+    inward = -normals_of(single, faces)
+    after = renewed(inward, single, faces, moved)
+    np.testing.assert_allclose(after, -normals_of(moved, faces), atol=1e-6)
+    # Far from what moved the bytes stay; vertices that were split share a normal where they shared it.
+    still = (single[:, 0] < 3.5).nonzero()[0]
+    assert np.array_equal(after[still], inward[still].astype(np.float32))
+    corners = faces.ravel()
+    soup = np.arange(len(corners)).reshape(-1, 3)
+    after = renewed(inward[corners], single[corners], soup, moved[corners])
+    np.testing.assert_allclose(after, -normals_of(moved, faces)[corners], atol=1e-6)
+    flat = np.repeat(normals_of(single[corners], soup)[::3], 3, axis=0)
+    after = renewed(flat, single[corners], soup, moved[corners])
+    np.testing.assert_allclose(after, normals_of(moved[corners], soup), atol=1e-6)
+
+
+def test_header_with_spaces_behind_its_words(tmp_path):
+    data = full_ply("binary_little_endian")[0]
+    head, body = data.split(b"end_header\n", 1)
+    (tmp_path / "in.ply").write_bytes(head.replace(b"\n", b" \n") + b"end_header \n" + body)
+    (tmp_path / "as.ply").write_bytes(data)
+    assert np.array_equal(open_file(tmp_path / "in.ply").positions, open_file(tmp_path / "as.ply").positions)
+
+
 @pytest.mark.parametrize("order", ORDERS)
 def test_ply_strips(tmp_path, order):
     strip = [0, 1, 2, 3, -1, 4, 5, 6]
