@@ -47,7 +47,6 @@ def renewed_normals(
     Normals at one place that were equal are one normal, as those at a seam of UVs: it is the mean of all
     triangles at them, by area. Those that differed, as at a sharp edge, go on differing.
     """
-    n = len(normals)
     alike, first = merge_equal(np.ascontiguousarray(normals, np.float32))
     groups, group = np.unique(place * len(first) + alike, return_inverse=True)
     n_groups, group = len(groups), group.reshape(-1)

@@ -16,9 +16,14 @@ from numpy.typing import DTypeLike, NDArray
 
 from .mesh_file import FileError
 
-BLOCK = 2**24
+BLOCK = 2**21
 """Bytes that are looked at together: some ten times as many are in use meanwhile."""
 
+MOST_DIGITS = 15
+"""So many digits are exact in double precision."""
+
+_FEW = 2**14  # numbers that are looked at together: the processor has room for them
+_LEAST_POWER = -4  # of ten, that is written with a dot and zeros
 SHOWN = 40  # letters of a line that an error shows
 _SPACE, _NEWLINE = 32, 10
 
@@ -222,6 +227,26 @@ def as_text(values: NDArray[np.float64], style: NumberStyle) -> tuple[NDArray[np
         scaled = np.rint(np.abs(values) * 10.0**style.digits)
         if scaled.max() < 2.0**53:
             return _fixed(scaled.astype(np.uint64), np.signbit(values), style.digits)
+    if not style.is_fixed and style.digits <= MOST_DIGITS and len(values):
+        size = np.abs(values)
+        is_plain = (size >= 10.0**_LEAST_POWER) & (size < 10.0 ** (style.digits - 1)) | (size == 0.0)
+        letters, lengths = _significant(values[is_plain], style.digits)
+        if is_plain.all():
+            return letters, lengths
+        others, other_lengths = _formatted(values[~is_plain], style)
+        joined = np.empty(len(values), np.int64)
+        joined[is_plain], joined[~is_plain] = lengths, other_lengths
+        is_plain = np.repeat(is_plain, joined)
+        result = np.empty(len(is_plain), np.uint8)
+        result[is_plain], result[~is_plain] = letters, others
+        return result, joined
+    return _formatted(values, style)
+
+
+def _formatted(
+    values: NDArray[np.float64], style: NumberStyle
+) -> tuple[NDArray[np.uint8], NDArray[np.int64]]:
+    """Do the work of `as_text` for any numbers, one after the other."""
     form = b"%%.%d%s " % (style.digits, b"f" if style.is_fixed else b"g")
     text = np.frombuffer((form * len(values)) % tuple(values.tolist()), np.uint8)
     ends = np.flatnonzero(text == _SPACE)
@@ -252,6 +277,57 @@ def _fixed(
         n_used[rows] += 1
     is_used = np.arange(width) >= (width - n_used)[:, None]
     return letters[is_used], n_used
+
+
+def _significant(values: NDArray[np.float64], n_digits: int) -> tuple[NDArray[np.uint8], NDArray[np.int64]]:
+    """Return numbers as `%g` writes them, as letters; none of them needs a power of ten."""
+    pieces = [
+        _significant_block(values[begin : begin + _FEW], n_digits) for begin in range(0, len(values), _FEW)
+    ]
+    if not pieces:
+        return np.zeros(0, np.uint8), np.zeros(0, np.int64)
+    return np.concatenate([each[0] for each in pieces]), np.concatenate([each[1] for each in pieces])
+
+
+def _significant_block(
+    values: NDArray[np.float64], n_digits: int
+) -> tuple[NDArray[np.uint8], NDArray[np.int64]]:
+    size = np.abs(values)
+    power = np.floor(np.log10(np.where(size > 0.0, size, 1.0))).astype(np.int64)
+    whole = np.rint(size * 10.0 ** (n_digits - 1 - power))
+    # What was rounded up to the next power of ten, or taken for it by the logarithm.
+    for is_off, step in (
+        (whole >= 10.0**n_digits, 1),
+        ((whole < 10.0 ** (n_digits - 1)) & (size > 0.0), -1),
+    ):
+        power[is_off] += step
+        whole[is_off] = np.rint(size[is_off] * 10.0 ** (n_digits - 1 - power[is_off]))
+    # Four zeros, then the digits; a dot goes behind the digit of the ones, wherever that is.
+    n_rows = n_digits - _LEAST_POWER
+    digits = np.full((n_rows, len(values)), ord("0"), np.uint8)
+    ones = (power - _LEAST_POWER).astype(np.int8)
+    last, rest = ones.copy(), whole.astype(np.uint64)
+    for row in range(n_rows - 1, -_LEAST_POWER - 1, -1):
+        tenth = rest // np.uint64(10)
+        digits[row] = rest - tenth * np.uint64(10)
+        np.maximum(last, row, out=last, where=digits[row] > 0)
+        digits[row] += ord("0")
+        rest = tenth
+    last += last > ones
+    first = np.minimum(ones, -_LEAST_POWER) - np.signbit(values)
+    letters, is_used = (
+        np.empty((n_rows + 2, len(values)), np.uint8),
+        np.empty((n_rows + 2, len(values)), bool),
+    )
+    for place in range(-1, n_rows + 1):  # -1 is for a sign
+        row = letters[place + 1]
+        row[:] = digits[min(max(place - 1, 0), n_rows - 1)]
+        np.copyto(row, digits[min(max(place, 0), n_rows - 1)], where=place <= ones)
+        row[place == ones + 1] = ord(".")
+        is_used[place + 1] = (first <= place) & (place <= last)
+        row[(first == place) & np.signbit(values)] = ord("-")
+    used = np.ascontiguousarray(is_used.T)
+    return np.ascontiguousarray(letters.T)[used], last.astype(np.int64) - first + 1
 
 
 def replaced(
@@ -297,7 +373,7 @@ def style_of_words(
     letters: NDArray[np.uint8],
     start: NDArray[np.int64],
     stop: NDArray[np.int64],
-    positions: NDArray[np.float64],
+    size: tuple[float, float],
     n_digits: int = 0,
 ) -> NumberStyle:
     """Return the style in which words that are coordinates are written again.
@@ -308,15 +384,14 @@ def style_of_words(
         The text.
     start, stop : ndarray, shape (m,), int64
         Where the words begin and end, ascending.
-    positions : ndarray, shape (N, 3), float64
-        All positions of the file, for the size of the surface.
+    size : tuple of float
+        Size of the surface, and its largest coordinate; see `size_of`.
     n_digits : int
         Least number of digits in all; 0 for as many as single precision around the middle has.
     """
     is_word = ~_outside(len(letters), start, stop)
     is_word[stop[stop < len(letters)]] = True  # the space behind each
-    extent, largest = size_of(positions)
-    return style_for(letters[is_word], extent, largest, n_digits)
+    return style_for(letters[is_word], *size, n_digits)
 
 
 def size_of(positions: NDArray[np.float64]) -> tuple[float, float]:
