@@ -18,6 +18,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
+ROUNDED = "Positions are stored as whole numbers, so that the result is rounded to them."
+
+
 class FileError(FrameletError):
     """Why a file cannot be read or written, in one sentence for people.
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .convert import triangles_of
-from .mesh_file import FileError, MeshFile, check_indices
+from .mesh_file import ROUNDED, FileError, MeshFile, check_indices
 from .normals import renewed_normals
 from .places import merge_equal
 from .ply_binary import BinaryLayout
@@ -73,11 +73,14 @@ class PlyFile(MeshFile):
         if min(numbers) < 0:
             raise FileError("The vertices have no coordinates x, y and z.")
         kinds = [TYPES[element.properties[number].kind] for number in numbers]
-        if any(kind[0] != "f" for kind in kinds):
+        self._are_whole = all(kind[0] != "f" for kind in kinds)
+        if self._are_whole:
+            self.warnings.append(ROUNDED)
+        elif any(kind[0] != "f" for kind in kinds):
             raise FileError(
-                "The coordinates of the vertices are whole numbers; they need to be float or double."
+                "Some coordinates of the vertices are whole numbers and some are not; they need one type."
             )
-        self.precision = np.dtype(np.float64 if "f8" in kinds else np.float32)
+        self.precision = np.dtype(np.float64 if "f8" in kinds or self._are_whole else np.float32)
         self._kinds, self._places = kinds, [table.columns[number] for number in numbers]
         columns = [self._layout.values(at, kind) for at, kind in zip(self._places, kinds, strict=True)]
         self.positions = np.stack(columns, axis=1).astype(np.float64)
@@ -166,6 +169,10 @@ class PlyFile(MeshFile):
         if not moved.any():
             return self._data
         after = np.asarray(positions)
+        if self._are_whole:
+            limits = [np.iinfo(kind) for kind in self._kinds]
+            low, high = [each.min for each in limits], [min(each.max, 2**53) for each in limits]
+            after = np.clip(np.rint(after), np.array(low, float), np.array(high, float)) + 0.0  # none is -0.0
         data = self._layout.replaced(self._places, self._kinds, moved, after, self.positions)
         if self._normals is None or not self.n_faces:
             return data

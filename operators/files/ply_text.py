@@ -165,7 +165,11 @@ class TextLayout:
             letters = self._letters[begin:end]
             start = self._start[some] - begin
             stop = text.word_stops(letters)[some - first]
-            style = text.style_of_words(letters, start, stop, size, 0 if "f8" in kinds else 9)
+            style = (
+                text.NumberStyle(True, 0)
+                if kinds[0][0] != "f"
+                else text.style_of_words(letters, start, stop, size, 0 if "f8" in kinds else 9)
+            )
             new, lengths = text.as_text(rows[at : at + _ROWS].reshape(-1), style)
             pieces.append(self._data[self._begin + done : self._begin + begin])
             pieces.append(text.replaced(letters, start, stop, new, lengths).tobytes())

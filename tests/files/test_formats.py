@@ -140,6 +140,36 @@ def test_normals_of_a_ply_keep_their_side_and_their_edges(tmp_path):
     np.testing.assert_allclose(after, normals_of(moved[corners], soup), atol=1e-6)
 
 
+@pytest.mark.parametrize("order", ORDERS)
+@pytest.mark.parametrize("kind", ["short", "int", "uint64"])
+def test_whole_coordinates_are_rounded_and_say_so(command, tmp_path, order, kind):
+    points, faces = sheet()
+    whole = np.rint((points + 1.0) * 1000.0)
+    if kind == "short":
+        whole[:, 0] -= 4000.0
+    head = f"ply\nformat {order} 1.0\nelement vertex {len(points)}\n"
+    head += "".join(f"property {kind} {axis}\n" for axis in "xyz")
+    head += f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n"
+    if order == "ascii":
+        body = "".join("{:.0f} {:.0f} {:.0f}\n".format(*row) for row in whole)
+        body = (body + "".join("3 {} {} {}\n".format(*face) for face in faces)).encode()
+    else:
+        sign = "<" if "little" in order else ">"
+        corners = np.zeros(len(faces), [("n", "u1"), ("v", sign + "i4", 3)])
+        corners["n"], corners["v"] = 3, faces
+        body = whole.astype(sign + {"short": "i2", "int": "i4", "uint64": "u8"}[kind]).tobytes()
+        body += corners.tobytes()
+    (tmp_path / "in.ply").write_bytes(head.encode() + body)
+    result = command("denoise", tmp_path / "in.ply", tmp_path / "out.ply", *POSITIONS)
+    assert result.code == 0 and "rounded" in result.err
+    expected = denoise(SurfaceMesh.from_faces(whole, faces), PRESETS["TRI_2"].settings).vertices
+    after = open_file(tmp_path / "out.ply")
+    assert np.array_equal(after.positions, np.rint(expected))
+    if order == "ascii":
+        assert b"." not in (tmp_path / "out.ply").read_bytes()[len(head) :]
+    assert np.array_equal(after.corner_vertex, faces.ravel())
+
+
 def test_header_with_spaces_behind_its_words(tmp_path):
     data = full_ply("binary_little_endian")[0]
     head, body = data.split(b"end_header\n", 1)
@@ -399,6 +429,12 @@ def test_quantized_gltf_is_rounded_and_says_so(command, tmp_path):
     noisy = (whole / 65535).astype(np.float32)
     expected = denoise(SurfaceMesh.from_faces(noisy, faces), PRESETS["TRI_2"].settings).vertices
     np.testing.assert_allclose(found[:, :3] / 65535, expected, atol=1.01 / 65535)
+
+
+def test_all_at_one_place(fails, tmp_path):
+    (tmp_path / "in.obj").write_bytes(b"v 1 1 1\n" * 3 + b"f 1 2 3\n")
+    sentence = fails("denoise", tmp_path / "in.obj", tmp_path / "out.obj", *POSITIONS)
+    assert "at the same place" in sentence and "distance" not in sentence
 
 
 def test_strength_zero_changes_no_byte(command, tmp_path):
