@@ -9,7 +9,7 @@ import codecs
 import numpy as np
 from numpy.typing import NDArray
 
-from . import text
+from . import digits, text
 from .mesh_file import FileError, MeshFile, Part, members
 
 _SLASH = ord("/")
@@ -157,7 +157,7 @@ class ObjFile(MeshFile):
         moved = self.moved(positions)
         if not moved.any():
             return self._data
-        size = text.size_of(self.positions)
+        size = digits.size_of(self.positions)
         pieces, n_before = [], 0
         for block in text.blocks(self._text):
             end = block.begin + len(block.letters)
@@ -172,9 +172,9 @@ class ObjFile(MeshFile):
             word = np.searchsorted(starts, block.first[lines[is_moved]])
             words = (word[:, None] + np.arange(1, 4)).reshape(-1)
             start, stop = starts[words], text.word_stops(block.letters)[words]
-            style = text.style_of_words(block.letters, start, stop, size)
+            style = digits.style_of_words(block.letters, start, stop, size)
             rows = np.asarray(positions[numbers[is_moved]], np.float64)
-            new, lengths = text.as_text(rows.reshape(-1), style)
+            new, lengths = digits.as_text(rows.reshape(-1), style)
             letters = np.frombuffer(self._data, np.uint8, len(block.letters), block.begin)
             pieces.append(text.replaced(letters, start, stop, new, lengths).tobytes())
         return b"".join(pieces)

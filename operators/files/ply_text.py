@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from . import text
+from . import digits, text
 from .mesh_file import FileError
 from .ply_header import Element, Table
 
@@ -154,7 +154,7 @@ class TextLayout:
         words = np.stack(places, axis=1)[moved]
         order = np.argsort(words[0])
         words, rows = words[:, order], np.asarray(after[moved], np.float64)[:, order]
-        size = text.size_of(before)
+        size = digits.size_of(before)
         pieces, done = [], -self._begin  # up to where the text is in the pieces
         for at in range(0, len(words), _ROWS):
             some = words[at : at + _ROWS].reshape(-1)
@@ -166,11 +166,11 @@ class TextLayout:
             start = self._start[some] - begin
             stop = text.word_stops(letters)[some - first]
             style = (
-                text.NumberStyle(True, 0)
+                digits.NumberStyle(True, 0)
                 if kinds[0][0] != "f"
-                else text.style_of_words(letters, start, stop, size, 0 if "f8" in kinds else 9)
+                else digits.style_of_words(letters, start, stop, size, 0 if "f8" in kinds else 9)
             )
-            new, lengths = text.as_text(rows[at : at + _ROWS].reshape(-1), style)
+            new, lengths = digits.as_text(rows[at : at + _ROWS].reshape(-1), style)
             pieces.append(self._data[self._begin + done : self._begin + begin])
             pieces.append(text.replaced(letters, start, stop, new, lengths).tobytes())
             done = end

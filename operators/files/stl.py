@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from . import text
+from . import digits, text
 from .mesh_file import FileError, MeshFile
 from .places import merge_equal
 
@@ -119,7 +119,7 @@ class StlFile(MeshFile):
         normals: NDArray[np.float64],
         of_normal: NDArray[np.bool_],
     ) -> bytes:
-        size = text.size_of(self.positions)
+        size = digits.size_of(self.positions)
         pieces, counts = [], [0, 0]
         for block in text.blocks(self._data):
             starts = np.flatnonzero(text.word_starts(block.letters))
@@ -142,8 +142,8 @@ class StlFile(MeshFile):
             order = np.argsort(flat[:, 0])
             at = flat[order].reshape(-1)
             vertex_words = words[0].reshape(-1)
-            style = text.style_of_words(block.letters, starts[vertex_words], stops[vertex_words], size)
-            new, lengths = text.as_text(rows[order].reshape(-1), style)
+            style = digits.style_of_words(block.letters, starts[vertex_words], stops[vertex_words], size)
+            new, lengths = digits.as_text(rows[order].reshape(-1), style)
             pieces.append(text.replaced(block.letters, starts[at], stops[at], new, lengths).tobytes())
         return b"".join(pieces)
 

@@ -5,7 +5,7 @@
 
 import numpy as np
 import pytest
-from framelet.operators.files.text import NumberStyle, as_text
+from framelet.operators.files.digits import NumberStyle, as_text
 
 
 def words(values, style):
