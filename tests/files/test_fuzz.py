@@ -26,7 +26,7 @@ from .made import (
     with_normals,
 )
 
-N_FILES = int(os.environ.get("FRAMELET_FUZZ", "250"))
+N_FILES = int(os.environ.get("FRAMELET_FUZZ", "288"))
 MOST_MEMORY = 60e6
 """Bytes; the files have up to 40 kB."""
 
