@@ -80,6 +80,8 @@ def make_weld(surface: SurfaceMesh, distance: float, weldable: NDArray[np.bool_]
         vertices = (vertices + np.stack(mean, axis=1)).astype(vertices.dtype)
     faces, kept = _welded_faces(surface, groups)
     if surface.n_faces and not len(kept):
+        if not distance:
+            raise RegionError("The corners of each face are at the same place, so that there is no surface.")
         raise RegionError(
             f"Welding vertices up to {distance:g} apart leaves no face; take a smaller merge distance."
         )

@@ -24,7 +24,7 @@ from .gltf_buffers import Buffers, Stored, as_count, as_stored, is_file
 from .gltf_container import Container, as_binary
 from .gltf_primitives import FAN, STRIP, TRIANGLES, Primitive, shading, triangles
 from .gltf_scene import placed_meshes
-from .mesh_file import FileError, MeshFile, Part
+from .mesh_file import ROUNDED, FileError, MeshFile, Part, members
 from .normals import renewed_normals, renewed_tangents
 from .places import merge_equal
 
@@ -131,9 +131,7 @@ class GltfFile(MeshFile):
         self.corner_vertex = np.concatenate(corners) if corners else np.zeros(0, np.int64)
         self.face_offset = np.arange(0, len(self.corner_vertex) + 1, 3)
         if any(stored.dtype.kind != "f" for stored in self._accessors.values()):
-            self.warnings.append(
-                "Positions are stored as whole numbers, so that the result is rounded to them."
-            )
+            self.warnings.append(ROUNDED)
 
     def _find_extras(self) -> None:
         names = self._names - {"POSITION"}
@@ -165,11 +163,11 @@ class GltfFile(MeshFile):
             owner[each.vertex] = each.mesh
         parts = []
         of_vertex = np.where(owner >= 0, group[owner], -1) if n_meshes else owner
+        faces, vertices = members(group[face_mesh], n_meshes), members(of_vertex, n_meshes)
+        first = {number: mesh for mesh, number in reversed(list(enumerate(group.tolist())))}
         for number in dict.fromkeys(group[[each.mesh for each in self._primitives]].tolist()):
-            meshes = np.flatnonzero(group == number)
-            name = str(self._json["meshes"][meshes[0]].get("name") or self.name)
-            faces = np.flatnonzero(group[face_mesh] == number)
-            parts.append(Part(name, faces, np.flatnonzero(of_vertex == number)))
+            name = str(self._json["meshes"][first[number]].get("name") or self.name)
+            parts.append(Part(name, faces[number], vertices[number]))
         return parts or super().parts()
 
     def movable(self) -> NDArray[np.bool_] | None:

@@ -18,6 +18,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
+ROUNDED = "Positions are stored as whole numbers, so that the result is rounded to them."
+
+
 class FileError(FrameletError):
     """Why a file cannot be read or written, in one sentence for people.
 
@@ -176,6 +179,18 @@ def check_indices(
         f"Face {face} names vertex {corner_vertex[corner]}, but there are {n_vertices} vertices; the file is "
         "damaged."
     )
+
+
+def members(owner: NDArray[np.integer], n_owners: int) -> list[NDArray[np.int64]]:
+    """Return the elements of each owner, ascending, whatever their number; negative owners own nothing.
+
+    Examples
+    --------
+    >>> [each.tolist() for each in members(np.array([1, 0, -1, 1]), 3)]
+    [[1], [0, 3], []]
+    """
+    order = np.argsort(owner, kind="stable")
+    return np.split(order, np.searchsorted(owner[order], np.arange(n_owners + 1)))[1:-1]
 
 
 def stem_of(path: Path) -> str:

@@ -7,6 +7,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from .places import merge_equal
+
 
 def renewed_normals(
     normals: NDArray[np.floating],
@@ -45,13 +47,9 @@ def renewed_normals(
     Normals at one place that were equal are one normal, as those at a seam of UVs: it is the mean of all
     triangles at them, by area. Those that differed, as at a sharp edge, go on differing.
     """
-    n = len(normals)
-    bits = np.ascontiguousarray(normals, np.float32).view(np.uint32).astype(np.int64)
-    order = np.lexsort((bits[:, 2], bits[:, 1], bits[:, 0], place))
-    rows = np.column_stack((place, bits))[order]
-    group = np.empty(n, np.int64)
-    group[order] = np.cumsum(np.append(False, (rows[1:] != rows[:-1]).any(axis=1)))
-    n_groups = int(group.max()) + 1 if n else 0
+    alike, first = merge_equal(np.ascontiguousarray(normals, np.float32))
+    groups, group = np.unique(place * len(first) + alike, return_inverse=True)
+    n_groups, group = len(groups), group.reshape(-1)
     corners = positions[triangles]
     areas = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     has_moved: NDArray[np.bool_] = np.asarray(moved[triangles].any(axis=1))

@@ -9,8 +9,8 @@ import codecs
 import numpy as np
 from numpy.typing import NDArray
 
-from . import text
-from .mesh_file import FileError, MeshFile, Part
+from . import digits, text
+from .mesh_file import FileError, MeshFile, Part, members
 
 _SLASH = ord("/")
 
@@ -123,13 +123,13 @@ class ObjFile(MeshFile):
         np.maximum.at(most, vertex, owner)
         if not len(vertex) or (least < most).any():
             return whole
-        parts = []
-        for number in range(-1, len(self._objects)):
-            vertices = np.flatnonzero(most == number)
-            if len(vertices):
-                name = self._objects[number][0] if number >= 0 else ""
-                parts.append(Part(name or self.name, np.flatnonzero(of_face == number), vertices))
-        return parts
+        names = ["", *(name for name, _face, _line in self._objects)]  # the first faces may have no object
+        faces, vertices = members(of_face + 1, len(names)), members(most + 1, len(names))
+        return [
+            Part(name or self.name, own_faces, own_vertices)
+            for name, own_faces, own_vertices in zip(names, faces, vertices, strict=True)
+            if len(own_vertices)
+        ]
 
     def weights(self, group: str) -> NDArray[np.float64] | None:
         """Return 1 for the vertices of the faces of a group; see `MeshFile.weights`."""
@@ -157,6 +157,7 @@ class ObjFile(MeshFile):
         moved = self.moved(positions)
         if not moved.any():
             return self._data
+        size = digits.size_of(self.positions)
         pieces, n_before = [], 0
         for block in text.blocks(self._text):
             end = block.begin + len(block.letters)
@@ -171,9 +172,9 @@ class ObjFile(MeshFile):
             word = np.searchsorted(starts, block.first[lines[is_moved]])
             words = (word[:, None] + np.arange(1, 4)).reshape(-1)
             start, stop = starts[words], text.word_stops(block.letters)[words]
-            style = text.style_of_words(block.letters, start, stop, self.positions)
+            style = digits.style_of_words(block.letters, start, stop, size)
             rows = np.asarray(positions[numbers[is_moved]], np.float64)
-            new, lengths = text.as_text(rows.reshape(-1), style)
+            new, lengths = digits.as_text(rows.reshape(-1), style)
             letters = np.frombuffer(self._data, np.uint8, len(block.letters), block.begin)
             pieces.append(text.replaced(letters, start, stop, new, lengths).tobytes())
         return b"".join(pieces)

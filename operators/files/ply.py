@@ -4,10 +4,15 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 from numpy.typing import NDArray
 
-from .mesh_file import FileError, MeshFile, check_indices
+from .convert import triangles_of
+from .mesh_file import ROUNDED, FileError, MeshFile, check_indices
+from .normals import renewed_normals
+from .places import merge_equal
 from .ply_binary import BinaryLayout
 from .ply_header import TYPES, Element, Table, read_header
 from .ply_text import TextLayout
@@ -68,14 +73,27 @@ class PlyFile(MeshFile):
         if min(numbers) < 0:
             raise FileError("The vertices have no coordinates x, y and z.")
         kinds = [TYPES[element.properties[number].kind] for number in numbers]
-        if any(kind[0] != "f" for kind in kinds):
+        self._are_whole = all(kind[0] != "f" for kind in kinds)
+        if self._are_whole:
+            self.warnings.append(ROUNDED)
+        elif any(kind[0] != "f" for kind in kinds):
             raise FileError(
-                "The coordinates of the vertices are whole numbers; they need to be float or double."
+                "Some coordinates of the vertices are whole numbers and some are not; they need one type."
             )
-        self.precision = np.dtype(np.float64 if "f8" in kinds else np.float32)
+        self.precision = np.dtype(np.float64 if "f8" in kinds or self._are_whole else np.float32)
         self._kinds, self._places = kinds, [table.columns[number] for number in numbers]
         columns = [self._layout.values(at, kind) for at, kind in zip(self._places, kinds, strict=True)]
         self.positions = np.stack(columns, axis=1).astype(np.float64)
+        numbers = [element.index(name) for name in ("nx", "ny", "nz")]
+        self.has_normals = max(numbers) >= 0
+        self._normals: tuple[list[NDArray[np.int64]], list[str]] | None = None
+        if min(numbers) >= 0:
+            kinds = [TYPES[element.properties[number].kind] for number in numbers]
+            if all(
+                kind[0] == "f" and table.lengths[n] is None for kind, n in zip(kinds, numbers, strict=True)
+            ):
+                self._normals = [table.columns[number] for number in numbers], kinds
+                self.has_normals = False
 
     def _read_faces(self, tables: dict[str, Table]) -> None:
         table = tables.get("face")
@@ -139,15 +157,53 @@ class PlyFile(MeshFile):
                 self.extras += [f"property {name} of the {element.name} elements" for name in extra]
             elif element.count:
                 self.extras.append(f"elements {element.name}")
-        vertex = next(element for element in elements if element.name == "vertex")
-        self.has_normals = vertex.index("nx") >= 0
+
+    def references(self) -> list[str]:
+        """Return the textures that comments of the header name, as MeshLab writes them."""
+        found = re.findall(rb"(?<=[\r\n])comment TextureFile ([^\r\n]+)", self._data[: self._begin])
+        return [name.strip().decode("utf-8", "surrogateescape") for name in found]
 
     def patched(self, positions: NDArray[np.floating]) -> bytes:
-        """See `MeshFile.patched`."""
+        """See `MeshFile.patched`; the normals of vertices whose faces moved follow."""
         moved = self.moved(positions)
         if not moved.any():
             return self._data
-        return self._layout.replaced(self._places, self._kinds, moved, np.asarray(positions), self.positions)
+        after = np.asarray(positions)
+        if self._are_whole:
+            limits = [np.iinfo(kind) for kind in self._kinds]
+            low, high = [each.min for each in limits], [min(each.max, 2**53) for each in limits]
+            after = np.clip(np.rint(after), np.array(low, float), np.array(high, float)) + 0.0  # none is -0.0
+        data = self._layout.replaced(self._places, self._kinds, moved, after, self.positions)
+        if self._normals is None or not self.n_faces:
+            return data
+        places, kinds = self._normals
+        before = np.stack(
+            [self._layout.values(at, kind) for at, kind in zip(places, kinds, strict=True)], axis=1
+        )
+        normals, is_new = self._renewed(before.astype(np.float64), after.astype(np.float64), moved)
+        if not is_new.any():
+            return data
+        layout = BinaryLayout(data, self._order) if self._order else TextLayout(data, self._begin)
+        return layout.replaced(places, kinds, is_new, normals, before)
+
+    def _renewed(
+        self, before: NDArray[np.float64], after: NDArray[np.float64], moved: NDArray[np.bool_]
+    ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+        """Return the normals of a surface that moved, as long as they were, and which of them are new."""
+        with np.errstate(over="ignore", invalid="ignore"):  # of what is no number
+            length = np.linalg.norm(before, axis=1)
+            triangles = triangles_of(self.face_offset, self.corner_vertex)
+            place = merge_equal(self.positions)[0]
+            normals, is_new = renewed_normals(before, place, triangles, triangles, after, moved)
+            # Faces may be wound so that the normals of the file look against them.
+            sample = triangles[:: len(triangles) // 10_000 + 1]
+            corners = self.positions[sample]
+            areas = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+            if np.nansum(areas * before[sample[:, 0]]) < 0.0:
+                normals = -normals
+            is_new &= np.isfinite(length) & (length > 0.0)  # zeros say that there is none
+            is_unit = np.abs(length - 1.0) < 1e-3  # as far as few digits tell
+            return normals * np.where(is_unit, 1.0, length)[:, None], is_new
 
 
 def new_file(positions: NDArray[np.floating], face_offset: NDArray, corner_vertex: NDArray) -> bytes:

@@ -166,7 +166,7 @@ class BinaryLayout:
             step = _common_step(at)
             if step:
                 column = np.ndarray((len(at),), dtype, result, int(at[0]), strides=(step,))
-                np.copyto(column, after[:, axis], where=moved, casting="same_kind")
+                np.copyto(column, after[:, axis], where=moved, casting="unsafe")
                 continue
             values = np.ascontiguousarray(after[moved, axis], dtype).view(np.uint8)
             letters = np.frombuffer(result, np.uint8)

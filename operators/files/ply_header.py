@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -19,6 +20,7 @@ TYPES = {
     **{"int64": "i8", "uint64": "u8"},  # of no standard, but written
 }
 LONGEST_HEADER = 2**20
+_LAST_LINE = re.compile(rb"(?<=[\r\n])end_header[ \t]*(\r\n|\n|\r)")
 _ORDERS = {"binary_little_endian": "<", "binary_big_endian": ">", "ascii": ""}
 
 
@@ -70,16 +72,11 @@ def read_header(data: bytes) -> tuple[str, list[Element], int]:
     """Return the order of bytes, empty for a text, the elements, and where the header ends."""
     if not data.startswith(b"ply"):
         raise FileError("The file does not begin with ‘ply’; it is damaged or of another type.")
-    end, newline = -1, b"\n"
-    for candidate in (b"\r\n", b"\n", b"\r"):
-        at = data.find(b"end_header" + candidate, 0, LONGEST_HEADER)
-        if at >= 0:
-            end, newline = at, candidate
-            break
-    if end < 0:
+    last = _LAST_LINE.search(data, 0, LONGEST_HEADER)
+    if last is None:
         raise FileError("The header of the PLY file has no end; the file is damaged or of another type.")
     order, elements = None, []
-    for line in data[:end].decode("latin-1").replace("\r", "\n").split("\n"):
+    for line in data[: last.start()].decode("latin-1").replace("\r", "\n").split("\n"):
         words = line.split()
         if not words or words[0] in ("ply", "comment", "obj_info"):
             continue
@@ -93,7 +90,7 @@ def read_header(data: bytes) -> tuple[str, list[Element], int]:
             raise FileError(f"The line {text.shown(line.encode())} of the PLY header cannot be understood.")
     if order is None:
         raise FileError("The PLY header does not say whether the file is ascii or binary.")
-    return order, elements, end + len(b"end_header") + len(newline)
+    return order, elements, last.end()
 
 
 def _property(words: list[str]) -> Property | None:

@@ -7,9 +7,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from . import text
+from . import digits, text
 from .mesh_file import FileError
 from .ply_header import Element, Table
+
+_ROWS = 2**15  # vertices that are written together: the processor has room for their text
 
 
 class TextLayout:
@@ -151,15 +153,25 @@ class TextLayout:
         """Return the file with other words."""
         words = np.stack(places, axis=1)[moved]
         order = np.argsort(words[0])
-        words, rows = words[:, order].reshape(-1), np.asarray(after[moved], np.float64)[:, order]
-        # Only what lies between the first and the last of the words is looked at.
-        first, last = int(words[0]), int(words[-1])
-        begin = int(self._start[first])
-        end = int(self._start[last + 1]) if last + 1 < len(self._start) else len(self._letters)
-        letters = self._letters[begin:end]
-        start = self._start[words] - begin
-        stop = text.word_stops(letters)[words - first]
-        style = text.style_of_words(letters, start, stop, before, 0 if "f8" in kinds else 9)
-        new, lengths = text.as_text(rows.reshape(-1), style)
-        middle = text.replaced(letters, start, stop, new, lengths).tobytes()
-        return b"".join((self._data[: self._begin + begin], middle, self._data[self._begin + end :]))
+        words, rows = words[:, order], np.asarray(after[moved], np.float64)[:, order]
+        size = digits.size_of(before)
+        pieces, done = [], -self._begin  # up to where the text is in the pieces
+        for at in range(0, len(words), _ROWS):
+            some = words[at : at + _ROWS].reshape(-1)
+            # Only what lies between the first and the last of the words is looked at.
+            first, last = int(some[0]), int(some[-1])
+            begin = int(self._start[first])
+            end = int(self._start[last + 1]) if last + 1 < len(self._start) else len(self._letters)
+            letters = self._letters[begin:end]
+            start = self._start[some] - begin
+            stop = text.word_stops(letters)[some - first]
+            style = (
+                digits.NumberStyle(True, 0)
+                if kinds[0][0] != "f"
+                else digits.style_of_words(letters, start, stop, size, 0 if "f8" in kinds else 9)
+            )
+            new, lengths = digits.as_text(rows[at : at + _ROWS].reshape(-1), style)
+            pieces.append(self._data[self._begin + done : self._begin + begin])
+            pieces.append(text.replaced(letters, start, stop, new, lengths).tobytes())
+            done = end
+        return b"".join((*pieces, self._data[self._begin + done :]))

@@ -54,7 +54,7 @@ def write_sidecars(
             outputs.write(target.parent / unquote(file.renames[uri]), content)
     if _same_folder(source, target):
         return warnings
-    names = list(dict.fromkeys(file.references()))
+    names = [each for name in file.references() for each in _named(name, source.parent)]
     for name in list(names):
         if name.lower().endswith(".mtl"):
             folder = Path(name).parent
@@ -62,6 +62,14 @@ def write_sidecars(
     for name in dict.fromkeys(names):
         warnings += _copy(name, source, target, outputs)
     return warnings
+
+
+def _named(text: str, folder: Path) -> list[str]:
+    """Return the files that a reference names: one whose name may have spaces, or else several."""
+    words = text.split()
+    if not (folder / text).is_file() and any((folder / word).is_file() for word in words):
+        return words
+    return [text]
 
 
 def _new_names(uris: list[str], source: Path, target: Path) -> dict[str, str]:

@@ -7,13 +7,14 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from . import text
+from . import digits, text
 from .mesh_file import FileError, MeshFile
 from .places import merge_equal
 
 TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 HEAD = 84  # bytes before the triangles of a binary file
 _NAMES = (b"vertex", b"facet")
+_BLOCK = 2**14  # triangles that are looked at together: the processor has room for them
 
 
 class StlFile(MeshFile):
@@ -54,8 +55,6 @@ class StlFile(MeshFile):
     def _read_binary(self, n: int) -> NDArray[np.float32]:
         """Return the corners of all triangles, shape (3 n, 3)."""
         self._triangles = np.frombuffer(self._data, TRIANGLE, n, HEAD)
-        with np.errstate(invalid="ignore"):  # of what is no number
-            self._normals = self._triangles["normal"].astype(np.float64)
         if self._triangles["attribute"].any():
             self.extras.append("attributes of triangles")
         return np.ascontiguousarray(self._triangles["corners"].reshape(-1, 3), np.float32)
@@ -85,22 +84,33 @@ class StlFile(MeshFile):
         moved = self.moved(positions)
         if not moved.any():
             return self._data
+        if not self._is_text:
+            return self._patched_binary(np.asarray(positions, np.float64), moved)
         after = np.asarray(positions, np.float64)[self._vertex]
         is_moved = moved[self._vertex]
-        of_triangle: NDArray[np.bool_] = np.asarray(is_moved.reshape(-1, 3).any(axis=1))
-        # Zeros say that a reader is to compute them.
-        of_normal = of_triangle & (self._normals != 0.0).any(axis=1)
+        has_moved: NDArray[np.bool_] = np.asarray(is_moved.reshape(-1, 3).any(axis=1))
+        of_normal = has_moved & self._has_normal(self._normals)
         new_normals = _normals(after.reshape(-1, 3, 3))
-        if not self._is_text:
-            data = bytearray(self._data)
-            triangles = np.ndarray(len(of_triangle), TRIANGLE, data, HEAD)
-            corners = triangles["corners"]
-            corners[of_triangle] = np.where(
-                is_moved.reshape(-1, 3, 1), after.reshape(-1, 3, 3).astype(np.float32), corners
-            )[of_triangle]
-            triangles["normal"][of_normal] = new_normals[of_normal]
-            return bytes(data)
         return self._patched_text(after, is_moved, new_normals, of_normal)
+
+    @staticmethod
+    def _has_normal(normals: NDArray[np.floating]) -> NDArray[np.bool_]:
+        """Return which triangles have a normal; zeros say that a reader is to compute it."""
+        return np.asarray((normals != 0.0).any(axis=1))
+
+    def _patched_binary(self, after: NDArray[np.float64], moved: NDArray[np.bool_]) -> bytes:
+        data = bytearray(self._data)
+        triangles = np.ndarray(self.n_faces, TRIANGLE, data, HEAD)
+        vertex = self._vertex.reshape(-1, 3)
+        for begin in range(0, len(triangles), _BLOCK):
+            rows, corner = triangles[begin : begin + _BLOCK], vertex[begin : begin + _BLOCK]
+            is_moved = moved[corner]
+            has_moved = is_moved.any(axis=1)
+            corners = after[corner]
+            np.copyto(rows["corners"], corners, where=is_moved[:, :, None], casting="same_kind")
+            has_moved &= self._has_normal(rows["normal"])
+            np.copyto(rows["normal"], _normals(corners), where=has_moved[:, None], casting="same_kind")
+        return bytes(data)
 
     def _patched_text(
         self,
@@ -109,6 +119,7 @@ class StlFile(MeshFile):
         normals: NDArray[np.float64],
         of_normal: NDArray[np.bool_],
     ) -> bytes:
+        size = digits.size_of(self.positions)
         pieces, counts = [], [0, 0]
         for block in text.blocks(self._data):
             starts = np.flatnonzero(text.word_starts(block.letters))
@@ -131,10 +142,8 @@ class StlFile(MeshFile):
             order = np.argsort(flat[:, 0])
             at = flat[order].reshape(-1)
             vertex_words = words[0].reshape(-1)
-            style = text.style_of_words(
-                block.letters, starts[vertex_words], stops[vertex_words], self.positions
-            )
-            new, lengths = text.as_text(rows[order].reshape(-1), style)
+            style = digits.style_of_words(block.letters, starts[vertex_words], stops[vertex_words], size)
+            new, lengths = digits.as_text(rows[order].reshape(-1), style)
             pieces.append(text.replaced(block.letters, starts[at], stops[at], new, lengths).tobytes())
         return b"".join(pieces)
 

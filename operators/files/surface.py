@@ -48,11 +48,10 @@ def surface_of(file: MeshFile, part: Part) -> SurfaceMesh:
     if not is_whole:
         number = np.full(len(file.positions), -1, np.int64)
         number[part.vertices] = np.arange(n)
-        sizes = np.diff(offset)
-        chosen = np.zeros(file.n_faces, bool)
-        chosen[part.faces] = True
-        corner = number[corner[np.repeat(chosen, sizes)]]
-        offset = np.concatenate(([0], np.cumsum(sizes[chosen])))
+        begin = offset[part.faces]
+        sizes = offset[part.faces + 1] - begin
+        offset = np.concatenate(([0], np.cumsum(sizes)))
+        corner = number[corner[np.arange(offset[-1]) + np.repeat(begin - offset[:-1], sizes)]]
         loose = number[loose]
         loose = loose[(loose >= 0).all(axis=1)]
     vertices = file.positions[part.vertices] if not is_whole else file.positions

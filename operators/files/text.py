@@ -16,7 +16,7 @@ from numpy.typing import DTypeLike, NDArray
 
 from .mesh_file import FileError
 
-BLOCK = 2**24
+BLOCK = 2**21
 """Bytes that are looked at together: some ten times as many are in use meanwhile."""
 
 SHOWN = 40  # letters of a line that an error shows
@@ -164,96 +164,6 @@ def shown(words: bytes) -> str:
     return "‘" + "".join(letter if letter.isprintable() else "?" for letter in text) + "’"
 
 
-@dataclass(frozen=True)
-class NumberStyle:
-    """How numbers are written: so many decimals, or so many digits in all with a power of ten."""
-
-    is_fixed: bool
-    digits: int
-
-
-def style_for(words: NDArray[np.uint8], extent: float, largest: float, n_digits: int = 0) -> NumberStyle:
-    """Return a style with as many digits as some numbers have, and as single precision around the middle has.
-
-    Parameters
-    ----------
-    words : ndarray, shape (n,), uint8
-        The numbers in the text, with spaces between them.
-    extent : float
-        Size of the surface.
-    largest : float
-        The largest coordinate.
-    n_digits : int
-        Least number of digits in all; 0 for what `extent` asks for.
-    """
-    step = max(extent, 1e-30) * 2.0**-24
-    least = max(n_digits, int(np.ceil(np.log10(max(largest, step) / step))) + 1)
-    lower = words | 0x20
-    if n_digits or (lower == ord("e")).any():
-        longest = _longest(words, (words >= 48) & (words <= 57))
-        return NumberStyle(False, min(max(least, min(longest, 17)), 17))
-    decimals = _longest_decimals(words)
-    wanted = max(decimals, int(np.ceil(-np.log10(step))), 0)
-    before = max(int(np.ceil(np.log10(max(largest, 1.0)))), 0) + 1
-    if wanted + before > 17 and wanted > decimals:
-        return NumberStyle(False, 17)
-    return NumberStyle(True, wanted)
-
-
-def _longest(words: NDArray[np.uint8], is_counted: NDArray[np.bool_]) -> int:
-    """Return the largest number of counted letters in a word."""
-    start = np.flatnonzero(word_starts(words))
-    return int(np.add.reduceat(is_counted, start, dtype=np.int64).max()) if len(start) else 0
-
-
-def _longest_decimals(words: NDArray[np.uint8]) -> int:
-    """Return the largest number of digits behind a dot."""
-    dots = np.flatnonzero(words == ord("."))
-    if not len(dots):
-        return 0
-    spaces = np.flatnonzero(words <= _SPACE)
-    ends = np.append(spaces, len(words))[np.searchsorted(spaces, dots)]
-    return int((ends - dots).max()) - 1
-
-
-def as_text(values: NDArray[np.float64], style: NumberStyle) -> tuple[NDArray[np.uint8], NDArray[np.int64]]:
-    """Return numbers, shape (m,), as letters one after the other, and the length of each."""
-    if style.is_fixed and len(values):
-        scaled = np.rint(np.abs(values) * 10.0**style.digits)
-        if scaled.max() < 2.0**53:
-            return _fixed(scaled.astype(np.uint64), np.signbit(values), style.digits)
-    form = b"%%.%d%s " % (style.digits, b"f" if style.is_fixed else b"g")
-    text = np.frombuffer((form * len(values)) % tuple(values.tolist()), np.uint8)
-    ends = np.flatnonzero(text == _SPACE)
-    return text[text != _SPACE], np.diff(np.concatenate(([-1], ends))) - 1
-
-
-def _fixed(
-    scaled: NDArray[np.uint64], is_negative: NDArray[np.bool_], decimals: int
-) -> tuple[NDArray[np.uint8], NDArray[np.int64]]:
-    """Return whole numbers as letters with a dot before the last `decimals` digits."""
-    n_digits = max(len(str(int(scaled.max()))), decimals + 1)
-    width = 1 + n_digits + (decimals > 0)
-    letters = np.empty((len(scaled), width), np.uint8)
-    column, rest = width - 1, scaled
-    n_used = np.full(len(scaled), decimals + 1 + (decimals > 0), np.int64)
-    for place in range(n_digits):
-        if decimals and place == decimals:
-            letters[:, column] = ord(".")
-            column -= 1
-        quotient = rest // np.uint64(10)
-        letters[:, column] = (rest - quotient * np.uint64(10)).astype(np.uint8) + 48
-        rest, column = quotient, column - 1
-        if place >= decimals:
-            n_used += rest > 0
-    if is_negative.any():
-        rows = np.flatnonzero(is_negative)
-        letters[rows, width - 1 - n_used[rows]] = ord("-")
-        n_used[rows] += 1
-    is_used = np.arange(width) >= (width - n_used)[:, None]
-    return letters[is_used], n_used
-
-
 def replaced(
     letters: NDArray[np.uint8],
     start: NDArray[np.int64],
@@ -274,54 +184,20 @@ def replaced(
     lengths : ndarray, shape (m,), int64
         The length of each.
     """
-    is_kept = _outside(len(letters), start, stop)
+    is_kept = outside(len(letters), start, stop)
     grown = np.cumsum(lengths - (stop - start))
     new_stop = stop + grown
     n_new = len(letters) + int(grown[-1] if len(grown) else 0)
     result = np.empty(n_new, np.uint8)
-    is_old = _outside(n_new, new_stop - lengths, new_stop)
+    is_old = outside(n_new, new_stop - lengths, new_stop)
     result[is_old] = letters[is_kept]
     result[~is_old] = new
     return result
 
 
-def _outside(n: int, start: NDArray[np.int64], stop: NDArray[np.int64]) -> NDArray[np.bool_]:
+def outside(n: int, start: NDArray[np.int64], stop: NDArray[np.int64]) -> NDArray[np.bool_]:
     """Return which of n places are in none of some stretches that do not overlap."""
     step = np.zeros(n + 1, np.int8)
     step[start] = 1
     step[stop] -= 1
     return np.cumsum(step[:-1], dtype=np.int8) == 0
-
-
-def style_of_words(
-    letters: NDArray[np.uint8],
-    start: NDArray[np.int64],
-    stop: NDArray[np.int64],
-    positions: NDArray[np.float64],
-    n_digits: int = 0,
-) -> NumberStyle:
-    """Return the style in which words that are coordinates are written again.
-
-    Parameters
-    ----------
-    letters : ndarray, shape (n,), uint8
-        The text.
-    start, stop : ndarray, shape (m,), int64
-        Where the words begin and end, ascending.
-    positions : ndarray, shape (N, 3), float64
-        All positions of the file, for the size of the surface.
-    n_digits : int
-        Least number of digits in all; 0 for as many as single precision around the middle has.
-    """
-    is_word = ~_outside(len(letters), start, stop)
-    is_word[stop[stop < len(letters)]] = True  # the space behind each
-    extent, largest = size_of(positions)
-    return style_for(letters[is_word], extent, largest, n_digits)
-
-
-def size_of(positions: NDArray[np.float64]) -> tuple[float, float]:
-    """Return the longest side of the box around positions, and the largest coordinate."""
-    finite = positions[np.isfinite(positions).all(axis=1)]
-    if not len(finite):
-        return 1.0, 1.0
-    return float(np.ptp(finite, axis=0).max()), float(np.abs(finite).max())

@@ -320,3 +320,30 @@ def full_gltf(kind="glb", sparse=True):
     body = struct.pack("<II", len(text), 0x4E4F534A) + text
     body += struct.pack("<II", len(buffer), 0x004E4942) + buffer + other
     return b"glTF" + struct.pack("<II", 2, 12 + len(body)) + body, buffer
+
+
+def with_normals(points, faces, normals, order, kind="float"):
+    """Return a PLY file with normals."""
+    head = f"ply\nformat {order} 1.0\nelement vertex {len(points)}\n"
+    head += "".join(f"property {kind} {name}\n" for name in ("x", "nx", "y", "ny", "z", "nz"))
+    head += f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n"
+    rows = np.stack((points, normals), axis=2).reshape(-1, 6)
+    if order == "ascii":
+        body = "".join(" ".join(f"{number:.6f}" for number in row) + "\n" for row in rows)
+        body += "".join(f"3 {a} {b} {c}\n" for a, b, c in faces)
+        return (head + body).encode()
+    sign = "<" if "little" in order else ">"
+    corners = np.zeros(len(faces), [("n", "u1"), ("v", sign + "i4", 3)])
+    corners["n"], corners["v"] = 3, faces
+    return (
+        head.encode() + rows.astype(sign + ("f4" if kind == "float" else "f8")).tobytes() + corners.tobytes()
+    )
+
+
+def normals_of(points, faces):
+    """Return the mean normal of the triangles at each vertex, by area."""
+    total = np.zeros(points.shape)
+    areas = np.cross(points[faces[:, 1]] - points[faces[:, 0]], points[faces[:, 2]] - points[faces[:, 0]])
+    for column in faces.T:
+        np.add.at(total, column, areas)
+    return total / np.linalg.norm(total, axis=1, keepdims=True)

@@ -138,6 +138,21 @@ def test_materials_and_textures_go_along(command, tmp_path):
     assert (folder / "my materials.mtl").read_text() == "another"
 
 
+def test_several_material_files_and_textures_of_a_ply_go_along(command, tmp_path):
+    folder = tmp_path / "elsewhere"
+    folder.mkdir()
+    (tmp_path / "in.obj").write_bytes(full_obj().replace(b"mtllib my materials.mtl", b"mtllib a.mtl b.mtl"))
+    for name in ("a", "b"):
+        (tmp_path / f"{name}.mtl").write_text(f"newmtl {name}\nmap_Kd {name}.png\n")
+        (tmp_path / f"{name}.png").write_bytes(b"picture")
+    assert command("denoise", tmp_path / "in.obj", folder / "out.obj", *QUICK).code == 0
+    assert names(folder) == ["a.mtl", "a.png", "b.mtl", "b.png", "out.obj"]
+    (tmp_path / "in.ply").write_bytes(full_ply("ascii")[0])
+    (tmp_path / "my texture.png").write_bytes(b"picture")
+    assert command("denoise", tmp_path / "in.ply", folder / "out.ply", *QUICK).code == 0
+    assert (folder / "my texture.png").read_bytes() == b"picture"
+
+
 def test_stale_normals_are_told(command, tmp_path):
     (tmp_path / "in.obj").write_bytes(full_obj())
     result = command("denoise", tmp_path / "in.obj", tmp_path / "out.obj", *QUICK)

@@ -12,7 +12,16 @@ import pytest
 from framelet.core import PRESETS, Region, SurfaceMesh, denoise
 from framelet.operators.files import FileError, open_file
 
-from .made import full_gltf, full_obj, full_ply, full_stl_binary, full_stl_text, sheet
+from .made import (
+    full_gltf,
+    full_obj,
+    full_ply,
+    full_stl_binary,
+    full_stl_text,
+    normals_of,
+    sheet,
+    with_normals,
+)
 
 POSITIONS = ("--preset", "tri-2")
 ORDERS = ("ascii", "binary_little_endian", "binary_big_endian")
@@ -62,6 +71,93 @@ def test_ply(command, tmp_path, order, coordinate):
     noisy = open_file(source).positions.astype(moved.precision)
     expected = denoise(SurfaceMesh.from_faces(noisy, faces), PRESETS["TRI_2"].settings).vertices
     np.testing.assert_allclose(moved.positions, expected, atol=2e-5)
+
+
+@pytest.mark.parametrize("kind", ["float", "double"])
+@pytest.mark.parametrize("order", ORDERS)
+def test_normals_of_a_ply_follow(command, tmp_path, order, kind):
+    points, faces = sheet()
+    normals = normals_of(points, faces)
+    normals[7] *= 2.5  # as long as it was
+    normals[9] = 0.0  # has none
+    source, target = tmp_path / "in.ply", tmp_path / "out.ply"
+    source.write_bytes(with_normals(points, faces, normals, order, kind))
+    result = command("denoise", source, target, *POSITIONS)
+    assert result.code == 0 and "normals" not in result.err
+    after = open_file(target)
+    places, kinds = after._normals
+    found = np.stack([after._layout.values(at, each) for at, each in zip(places, kinds, strict=True)], axis=1)
+    expected = normals_of(after.positions, faces)
+    expected[7] *= 2.5
+    expected[9] = 0.0
+    np.testing.assert_allclose(found, expected, atol=2e-5)
+    assert np.abs(found - normals).max() > 0.1
+
+
+def test_normals_of_a_ply_keep_their_side_and_their_edges(tmp_path):
+    points, faces = sheet()
+    single = points.astype(np.float32).astype(float)
+    moved = single + [0.0, 0.0, 0.25] * (single[:, :1] > 5.5)
+
+    def renewed(normals, points, faces, moved):
+        (tmp_path / "in.ply").write_bytes(with_normals(points, faces, normals, "binary_little_endian"))
+        (tmp_path / "out.ply").write_bytes(open_file(tmp_path / "in.ply").patched(moved))
+        rows = np.frombuffer(
+            (tmp_path / "out.ply").read_bytes().split(b"end_header\n", 1)[1], "<f4", 6 * len(points)
+        )
+        return rows.reshape(-1, 6)[:, 1::2]
+
+    inward = -normals_of(single, faces)
+    after = renewed(inward, single, faces, moved)
+    np.testing.assert_allclose(after, -normals_of(moved, faces), atol=1e-6)
+    # Far from what moved the bytes stay; vertices that were split share a normal where they shared it.
+    still = (single[:, 0] < 3.5).nonzero()[0]
+    assert np.array_equal(after[still], inward[still].astype(np.float32))
+    corners = faces.ravel()
+    soup = np.arange(len(corners)).reshape(-1, 3)
+    after = renewed(inward[corners], single[corners], soup, moved[corners])
+    np.testing.assert_allclose(after, -normals_of(moved, faces)[corners], atol=1e-6)
+    flat = np.repeat(normals_of(single[corners], soup)[::3], 3, axis=0)
+    after = renewed(flat, single[corners], soup, moved[corners])
+    np.testing.assert_allclose(after, normals_of(moved[corners], soup), atol=1e-6)
+
+
+@pytest.mark.parametrize("order", ORDERS)
+@pytest.mark.parametrize("kind", ["short", "int", "uint64"])
+def test_whole_coordinates_are_rounded_and_say_so(command, tmp_path, order, kind):
+    points, faces = sheet()
+    whole = np.rint((points + 1.0) * 1000.0)
+    if kind == "short":
+        whole[:, 0] -= 4000.0
+    head = f"ply\nformat {order} 1.0\nelement vertex {len(points)}\n"
+    head += "".join(f"property {kind} {axis}\n" for axis in "xyz")
+    head += f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n"
+    if order == "ascii":
+        body = "".join("{:.0f} {:.0f} {:.0f}\n".format(*row) for row in whole)
+        body = (body + "".join("3 {} {} {}\n".format(*face) for face in faces)).encode()
+    else:
+        sign = "<" if "little" in order else ">"
+        corners = np.zeros(len(faces), [("n", "u1"), ("v", sign + "i4", 3)])
+        corners["n"], corners["v"] = 3, faces
+        body = whole.astype(sign + {"short": "i2", "int": "i4", "uint64": "u8"}[kind]).tobytes()
+        body += corners.tobytes()
+    (tmp_path / "in.ply").write_bytes(head.encode() + body)
+    result = command("denoise", tmp_path / "in.ply", tmp_path / "out.ply", *POSITIONS)
+    assert result.code == 0 and "rounded" in result.err
+    expected = denoise(SurfaceMesh.from_faces(whole, faces), PRESETS["TRI_2"].settings).vertices
+    after = open_file(tmp_path / "out.ply")
+    assert np.array_equal(after.positions, np.rint(expected))
+    if order == "ascii":
+        assert b"." not in (tmp_path / "out.ply").read_bytes()[len(head) :]
+    assert np.array_equal(after.corner_vertex, faces.ravel())
+
+
+def test_header_with_spaces_behind_its_words(tmp_path):
+    data = full_ply("binary_little_endian")[0]
+    head, body = data.split(b"end_header\n", 1)
+    (tmp_path / "in.ply").write_bytes(head.replace(b"\n", b" \n") + b"end_header \n" + body)
+    (tmp_path / "as.ply").write_bytes(data)
+    assert np.array_equal(open_file(tmp_path / "in.ply").positions, open_file(tmp_path / "as.ply").positions)
 
 
 @pytest.mark.parametrize("order", ORDERS)
@@ -315,6 +411,12 @@ def test_quantized_gltf_is_rounded_and_says_so(command, tmp_path):
     noisy = (whole / 65535).astype(np.float32)
     expected = denoise(SurfaceMesh.from_faces(noisy, faces), PRESETS["TRI_2"].settings).vertices
     np.testing.assert_allclose(found[:, :3] / 65535, expected, atol=1.01 / 65535)
+
+
+def test_all_at_one_place(fails, tmp_path):
+    (tmp_path / "in.obj").write_bytes(b"v 1 1 1\n" * 3 + b"f 1 2 3\n")
+    sentence = fails("denoise", tmp_path / "in.obj", tmp_path / "out.obj", *POSITIONS)
+    assert "at the same place" in sentence and "distance" not in sentence
 
 
 def test_strength_zero_changes_no_byte(command, tmp_path):

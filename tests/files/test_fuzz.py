@@ -15,9 +15,18 @@ import numpy as np
 import pytest
 from framelet.operators.files import FileError, open_file
 
-from .made import full_gltf, full_obj, full_ply, full_stl_binary, full_stl_text
+from .made import (
+    full_gltf,
+    full_obj,
+    full_ply,
+    full_stl_binary,
+    full_stl_text,
+    normals_of,
+    sheet,
+    with_normals,
+)
 
-N_FILES = int(os.environ.get("FRAMELET_FUZZ", "250"))
+N_FILES = int(os.environ.get("FRAMELET_FUZZ", "288"))
 MOST_MEMORY = 60e6
 """Bytes; the files have up to 40 kB."""
 
@@ -25,6 +34,7 @@ SEEDS = {
     "ascii.ply": full_ply("ascii")[0],
     "little.ply": full_ply("binary_little_endian")[0],
     "big.ply": full_ply("binary_big_endian", "double")[0],
+    "normals.ply": with_normals(*sheet(), normals_of(*sheet()), "binary_big_endian"),
     "a.obj": full_obj(),
     "text.stl": full_stl_text(),
     "binary.stl": full_stl_binary(),

@@ -26,7 +26,7 @@ def mesh(rng):
         ({"weights": np.array([-0.1, 1.0])}, r"weight of vertex 0 is -0\.1"),
         ({"weights": np.array([0.0, np.nan])}, "weight of vertex 1 is nan"),
         ({"weights": np.ones((3, 1))}, r"float64 of shape \(3, 1\); expected one real number a vertex"),
-        ({"weights": np.ones(3, int)}, r"weights are int64 of shape \(3,\)"),
+        ({"weights": np.ones(3, complex)}, r"weights are complex128 of shape \(3,\)"),
         ({"feature_edges": np.zeros((2, 3), int)}, r"int64 of shape \(2, 3\); expected whole numbers"),
         ({"feature_edges": np.zeros((2, 2))}, r"float64 of shape \(2, 2\)"),
         ({"max_displacement": -1.0}, "largest displacement is -1; it must be 0 or a positive number"),
