@@ -51,7 +51,7 @@ format: ## Format the code and fix what ruff can fix
 
 .PHONY: test-core
 test-core: ## Test core/, files and the release rules on plain Python and NumPy
-	$(ENVIRONMENT) run core --timeout $(TIMEOUT) -- $(PYTEST) tests/core tests/files tests/release tests/benchmarks
+	$(ENVIRONMENT) run core --timeout $(TIMEOUT) -- $(PYTEST) tests/core tests/files tests/batch tests/release tests/benchmarks
 
 .PHONY: fuzz
 fuzz: ## Read 5,000 damaged files
