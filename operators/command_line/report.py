@@ -14,7 +14,7 @@ from ..batch.summary import as_csv, by_need, summary_lines
 from ..batch.task import hash_of
 from ..files.safe_write import Outputs, check_target
 from .arguments import HelpFormatter
-from .batch import reports_in
+from .batch_plan import reports_in
 from .messages import USAGE_ERROR, CommandError, Messages
 
 if TYPE_CHECKING:
