@@ -112,8 +112,9 @@ def run(arguments: argparse.Namespace) -> None:
                 report.add_entries(found["entries"], found["skipped"], found["blender"])
             else:
                 opened = open_source(source, messages)
-                report.add(denoise_opened(opened, settings, options, messages))
+                outcome = denoise_opened(opened, settings, options, messages)
                 write_target(opened, target, outputs, messages)
+                report.add(outcome)
             kept = outputs.keep_backups() if arguments.backup else []
             report.write(outputs)
             publish(outputs, kept, messages)
