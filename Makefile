@@ -51,11 +51,15 @@ format: ## Format the code and fix what ruff can fix
 
 .PHONY: test-core
 test-core: ## Test core/, files and the release rules on plain Python and NumPy
-	$(ENVIRONMENT) run core --timeout $(TIMEOUT) -- $(PYTEST) tests/core tests/files tests/release tests/benchmarks
+	$(ENVIRONMENT) run core --timeout $(TIMEOUT) -- $(PYTEST) tests/core tests/files tests/batch tests/release tests/benchmarks
 
 .PHONY: fuzz
 fuzz: ## Read 5,000 damaged files
 	FRAMELET_FUZZ=5000 $(ENVIRONMENT) run core --timeout $(TIMEOUT) -- $(PYTEST) tests/files/test_fuzz.py
+
+.PHONY: kills
+kills: ## Kill batches at 100 random moments
+	FRAMELET_KILLS=100 $(ENVIRONMENT) run core --timeout $(TIMEOUT) -- $(PYTEST) tests/batch/test_kills.py
 
 .PHONY: test-training
 test-training: ## Train for a minute, and test the training

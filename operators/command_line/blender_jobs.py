@@ -80,6 +80,7 @@ def _denoise(job: dict[str, Any], messages: MarkedMessages) -> dict[str, Any]:
     import bpy
 
     from ...core.settings import DenoiseSettings
+    from ..batch.peak_memory import peak_bytes
     from ..properties.region_options import RegionOptions
     from ..run.denoise_object import denoise_object
     from ..run.denoise_run import State, begin_run
@@ -117,6 +118,7 @@ def _denoise(job: dict[str, Any], messages: MarkedMessages) -> dict[str, Any]:
     outcome = _on_meshes(job, messages, None if options.together else work, together)
     return {
         "blender": bpy.app.version_string.split()[0],
+        "peak_bytes": peak_bytes(),
         "entries": [plain({"name": name, **entry(report)}) for name, report in outcome.done],
         "skipped": [{"name": name, "reason": reason} for name, reason in outcome.refusals],
     }

@@ -29,6 +29,9 @@ MARK = "\x1eframelet "
 PATIENCE = 10.0
 """Seconds that Blender has to end by itself once all was done."""
 
+BLENDER = "FRAMELET_BLENDER"
+"""The environment variable that names the Blender to start; without it, one is looked for."""
+
 WORKER = Path(__file__).with_name("blender_worker.py")
 
 
@@ -82,7 +85,10 @@ def run_in_blender(
 
 
 def _command_line() -> list[str]:
-    """Return how Blender is started: the application we are in, or the module of this Python."""
+    """Return how Blender is started: as it is named, the application we are in, or the module."""
+    named = os.environ.get(BLENDER)
+    if named:
+        return [named, "--background", "--factory-startup", "--python", str(WORKER), "--"]
     bpy = sys.modules.get("bpy")
     binary = getattr(getattr(bpy, "app", None), "binary_path", "")
     if bpy is not None and binary and not getattr(bpy.app, "module", False):
@@ -94,7 +100,7 @@ def _command_line() -> list[str]:
     if not is_there:
         raise CommandError(
             "This needs Blender, which alone reads and writes .blend, .fbx, .usd and .abc files; install the "
-            "module with 'pip install bpy', or use 'blender -c framelet'."
+            "module with 'pip install bpy', use 'blender -c framelet', or name a Blender in FRAMELET_BLENDER."
         )
     return [sys.executable, str(WORKER)]
 

@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from ...core import NoiseBelief, NoiseEstimate, SurfaceMesh
     from ...core.report import DenoiseReport
     from ..files import Part
+    from .file_work import OpenedFile
     from .mesh_work import Outcome
 
 
@@ -110,25 +111,36 @@ def run(arguments: argparse.Namespace) -> None:
                 )
                 report.add_entries(found["entries"], found["skipped"], found["blender"])
             else:
-                outcome = _denoise(arguments, target, settings, options, outputs, messages)
+                opened = open_source(source, messages)
+                outcome = denoise_opened(opened, settings, options, messages)
+                write_target(opened, target, outputs, messages)
                 report.add(outcome)
             kept = outputs.keep_backups() if arguments.backup else []
             report.write(outputs)
             publish(outputs, kept, messages)
 
 
-def _denoise(
-    arguments: argparse.Namespace,
-    target: Path,
-    settings: DenoiseSettings,
-    options: RegionOptions,
-    outputs: Outputs,
-    messages: Messages,
+def denoise_opened(
+    opened: OpenedFile, settings: DenoiseSettings, options: RegionOptions, messages: Messages
 ) -> Outcome:
-    """Denoise each surface of a file that Blender is not needed for, and write the result."""
-    opened = open_source(arguments.source, messages)
+    """Denoise each surface of a file that Blender is not needed for.
+
+    Parameters
+    ----------
+    opened : OpenedFile
+        The file; its positions are changed.
+    settings, options
+        What is done, and where.
+    messages : Messages
+        Says what was done.
+
+    Raises
+    ------
+    CommandError
+        If nothing at all could be done.
+    """
     if options.keep_sharp:
-        messages.warn(f"--keep-sharp has no effect: {arguments.source} marks no edges as sharp.")
+        messages.warn(f"--keep-sharp has no effect: {opened.source} marks no edges as sharp.")
 
     def work(part: Part) -> DenoiseReport:
         from ...core import denoise
@@ -148,9 +160,7 @@ def _denoise(
         return reports[0]
 
     parts = [opened.whole()] if options.together else opened.parts()
-    outcome = work_on_each(arguments.source, parts, messages, work)
-    write_target(opened, target, outputs, messages)
-    return outcome
+    return work_on_each(opened.source, parts, messages, work)
 
 
 def describe_result(name: str, report: DenoiseReport) -> list[str]:

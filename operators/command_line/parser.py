@@ -7,11 +7,11 @@ from __future__ import annotations
 import argparse
 from typing import NoReturn
 
-from . import bands, denoise, equalize
+from . import bands, batch, denoise, equalize, report
 from .messages import USAGE_ERROR, CommandError
 from .version import framelet_version
 
-COMMANDS = (denoise, equalize, bands)
+COMMANDS = (denoise, batch, report, equalize, bands)
 """Modules with a function `add_command(subparsers)`, in the order of the help text."""
 
 

@@ -1,0 +1,263 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One file of a batch: denoise it, write it, and account for it in a row. Runs in a process of the batch."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ...core.settings import DenoiseSettings
+from ..batch.peak_memory import forget_peak, peak_bytes
+from ..batch.rows import DONE, FAILED
+from ..batch.task import Task, hash_of
+from ..files.safe_write import Outputs
+from ..properties.region_options import RegionOptions
+from . import explained
+from .denoise import denoise_opened
+from .file_types import check_source, needs_blender
+from .file_work import open_source, refuse_blender_options, write_target
+from .messages import CommandError, Messages
+from .report_file import entry, plain
+from .version import framelet_version
+
+if TYPE_CHECKING:
+    from .file_work import OpenedFile
+
+
+class KeptMessages(Messages):
+    """Messages that keep the warnings and print nothing."""
+
+    def __init__(self) -> None:
+        super().__init__(is_quiet=True)
+        self.warnings: list[str] = []
+
+    def warn(self, sentence: str) -> None:
+        """Keep a warning."""
+        self.warnings.append(sentence)
+
+
+class _Stages:
+    """Seconds by stage."""
+
+    def __init__(self) -> None:
+        self.seconds: dict[str, float] = {}
+
+    @contextmanager
+    def __call__(self, name: str) -> Iterator[None]:
+        began = time.perf_counter()
+        try:
+            yield
+        finally:
+            self.seconds[name] = round(time.perf_counter() - began, 4)
+
+
+def carry_out(job: dict[str, Any]) -> dict[str, Any]:
+    """Denoise one file.
+
+    Parameters
+    ----------
+    job : dict
+        The fields of a `Task`, and `max_bytes`, the most memory that the work may take, or None.
+
+    Returns
+    -------
+    dict
+        The row of the report; ``status`` is "done", or "failed" with the sentence in ``error``. No error is
+        raised that a file can cause.
+    """
+    task = Task(**{name: value for name, value in job.items() if name != "max_bytes"})
+    messages, stages, row = KeptMessages(), _Stages(), row_of(task)
+    forget_peak()
+    try:
+        if task.error:
+            raise CommandError(task.error)
+        row |= _work(task, job.get("max_bytes"), messages, stages)
+        row["status"] = DONE
+    except Exception as error:
+        row["error"] = _sentence(error, task)
+    row |= {"warnings": messages.warnings, "seconds": stages.seconds, "ended": time.time()}
+    row["peak_bytes"] = row["peak_bytes"] or peak_bytes()
+    return plain(row)
+
+
+def row_of(task: Task) -> dict[str, Any]:
+    """Return the row of a task of which nothing is known yet: it failed."""
+    return {
+        "status": FAILED,
+        "input": task.source,
+        "output": task.name,
+        "target": task.target,
+        "error": None,
+        "attempts": 1,
+        "preset": task.preset,
+        "settings": task.settings,
+        "region": task.region,
+        "placement": task.placement,
+        "key": task.key,
+        "input_sha256": None,
+        "output_sha256": None,
+        "framelet": framelet_version(),
+        "blender": None,
+        "peak_bytes": None,
+        "seconds": {},
+        "warnings": [],
+        "ended": time.time(),
+    }
+
+
+def _sentence(error: Exception, task: Task) -> str:
+    """Return why a file could not be worked on, whatever it was: a batch goes on."""
+    if isinstance(error, ValueError):
+        return str(error)
+    try:
+        return explained(error)[0]
+    except Exception:
+        reason = f"{type(error).__name__}: {' '.join(str(error).split())}"
+        return f"{task.source} cannot be worked on ({reason}); the file may be damaged."
+
+
+def _work(task: Task, max_bytes: int | None, messages: KeptMessages, stages: _Stages) -> dict[str, Any]:
+    """Read, denoise and write a file; return what is to be said about it."""
+    source, target = Path(task.source), Path(task.target)
+    for_blender = needs_blender(source, target)
+    refuse_blender_options(task.placement, target)
+    if target.suffix.lower() == ".gltf" and source.suffix.lower() not in (".gltf", ".blend", ".fbx"):
+        raise CommandError(
+            f"{target} cannot be made of another format; write .glb, .ply, .obj or .stl instead."
+        )
+    check_source(source)
+    _check_size(source, max_bytes)
+    with stages("hash"):
+        found: dict[str, Any] = {"input_sha256": hash_of(source)}
+    target.parent.mkdir(parents=True, exist_ok=True)
+    with Outputs() as outputs:
+        work = _work_in_blender if for_blender else _work_here
+        found |= work(task, max_bytes, outputs, messages, stages)
+        with stages("publish"):
+            outputs.publish()
+    found["output_sha256"] = hash_of(target)
+    return found
+
+
+def _work_here(
+    task: Task, max_bytes: int | None, outputs: Outputs, messages: KeptMessages, stages: _Stages
+) -> dict[str, Any]:
+    source, options = Path(task.source), RegionOptions(**task.region)
+    with stages("read"):
+        opened = open_source(source, messages)
+    settings = DenoiseSettings(**task.settings)
+    _check_memory(opened, settings, max_bytes)
+    with stages("denoise"):
+        outcome = denoise_opened(opened, settings, options, messages)
+    with stages("write"):
+        write_target(opened, Path(task.target), outputs, messages)
+    entries = [{"name": name, **entry(report)} for name, report in outcome.done]
+    return account(entries, [{"name": name, "reason": reason} for name, reason in outcome.refusals])
+
+
+def _work_in_blender(
+    task: Task, max_bytes: int | None, outputs: Outputs, messages: KeptMessages, stages: _Stages
+) -> dict[str, Any]:
+    from .blender_process import run_in_blender
+
+    with stages("blender"):
+        found = run_in_blender(
+            "denoise",
+            Path(task.source),
+            Path(task.target),
+            outputs,
+            messages,
+            settings=asdict(DenoiseSettings(**task.settings)),
+            options=task.region,
+            output=task.placement,
+        )
+    return account(found["entries"], found["skipped"]) | {
+        "blender": found["blender"],
+        "peak_bytes": found["peak_bytes"],
+    }
+
+
+def account(entries: Sequence[dict[str, Any]], skipped: Sequence[dict[str, str]]) -> dict[str, Any]:
+    """Return what a row says about the surfaces of a file: their sums, and each by itself.
+
+    Examples
+    --------
+    >>> names = ("n_vertices", "n_faces", "n_moved", "flipped_faces", "folded_faces_before", "folded_faces")
+    >>> names += ("degenerate_faces_before", "non_manifold_vertices", "boundary_vertices", "loose_vertices")
+    >>> names += ("welded_vertices", "displacement_rms", "displacement_max", "mean_edge_length")
+    >>> one = dict.fromkeys(names, 2) | {"volume_change": None, "noise": None}
+    >>> row = account([one, one | {"displacement_max": 6}], [])
+    >>> row["n_vertices"], row["displacement_max"], row["displacement_max_edges"], row["folded_faces"]
+    (4, 6, 3.0, 4)
+    """
+
+    def total(name: str) -> int:
+        return sum(each[name] for each in entries)
+
+    n = total("n_vertices")
+    squares = sum(each["displacement_rms"] ** 2 * each["n_vertices"] for each in entries)
+    changes = [each["volume_change"] for each in entries if each["volume_change"] is not None]
+    edges = [each["displacement_max"] / (each["mean_edge_length"] or 1.0) for each in entries]
+    return {
+        "n_objects": len(entries),
+        "n_vertices": n,
+        "n_faces": total("n_faces"),
+        "n_moved": total("n_moved"),
+        "defects": {
+            "folded_faces": total("folded_faces_before"),
+            "degenerate_faces": total("degenerate_faces_before"),
+            "non_manifold_vertices": total("non_manifold_vertices"),
+            "boundary_vertices": total("boundary_vertices"),
+            "loose_vertices": total("loose_vertices"),
+            "welded_vertices": total("welded_vertices"),
+        },
+        "folded_faces_before": total("folded_faces_before"),
+        "folded_faces": total("folded_faces"),
+        "turned_faces": total("flipped_faces"),
+        "displacement_rms": (squares / n) ** 0.5 if n else 0.0,
+        "displacement_max": max((each["displacement_max"] for each in entries), default=0.0),
+        "displacement_max_edges": max(edges, default=0.0),
+        "volume_change": max(changes, key=abs, default=None),
+        "noise": [each["noise"] for each in entries],
+        "objects": list(entries),
+        "skipped": list(skipped),
+    }
+
+
+def _check_size(source: Path, max_bytes: int | None) -> None:
+    """Raise CommandError if a file alone is too large to be held twice, as it was and as it will be."""
+    size = source.stat().st_size
+    if max_bytes is not None and 2 * size > max_bytes:
+        raise CommandError(
+            f"{source} has {_text(size)} and is held twice, which is more than --max-memory "
+            f"{_text(max_bytes)}; allow more, or split it."
+        )
+
+
+def _check_memory(opened: OpenedFile, settings: DenoiseSettings, max_bytes: int | None) -> None:
+    """Raise CommandError if the work is estimated to take more memory than it may."""
+    if max_bytes is None:
+        return
+    import numpy as np
+
+    from ...core.memory import USUAL_VALENCE, estimated_bytes
+
+    file = opened.file
+    valences = np.bincount(file.corner_vertex, minlength=1)
+    n_vertices, n_corners = len(file.positions), len(file.corner_vertex)
+    needed = 2 * opened.source.stat().st_size + 2 * file.positions.nbytes + file.corner_vertex.nbytes
+    needed += estimated_bytes(n_vertices, n_corners, settings, valences[valences > USUAL_VALENCE])
+    if needed > max_bytes:
+        raise CommandError(
+            f"{opened.source} with {n_vertices:,} vertices needs about {_text(needed)} of memory, more than "
+            f"--max-memory {_text(max_bytes)}; allow more, or split it."
+        )
+
+
+def _text(n_bytes: int) -> str:
+    return f"{n_bytes / 1e9:.1f} GB" if n_bytes >= 1e8 else f"{n_bytes / 1e6:.2g} MB"
