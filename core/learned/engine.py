@@ -28,8 +28,9 @@ WIDE_FROM = 0.05
 """Correlation with the ring of what a pass took away from which the noise is wide. Of white noise it is 0 or
 less, as a pass takes from each vertex a little of what its neighbors had."""
 
-WEAK = 0.03
-"""Strength in local edge lengths up to which nothing is said of the width: that may be relief."""
+WEAK = 0.01
+"""Strength in local edge lengths of what neighbors have in common in what a pass took away, up to which nothing
+is said of the width: that may be relief."""
 
 LONG = 8.0
 """Length in mean lengths of the edges at its ends from which an edge is long."""
@@ -120,11 +121,12 @@ class FaceEngine:
         `unit`, shape (N,), are local edge lengths.
         """
         corners = np.concatenate([group.corners[0] for group in self.graph.groups])
-        correlation, strength = taken.correlation[corners], (taken.strength / unit)[corners]
+        correlation = taken.correlation[corners]
+        common = (taken.strength / unit)[corners] * np.sqrt(np.maximum(correlation, 0))
         parts = [slice(None)] if self.island is None else faces_of_islands(self.island)
         result = np.zeros(len(corners), np.float32)
         for part in parts:
-            is_wide = np.median(correlation[part]) > WIDE_FROM and np.median(strength[part]) > WEAK
+            is_wide = np.median(correlation[part]) > WIDE_FROM and np.median(common[part]) > WEAK
             result[part] = is_wide
         return result
 
