@@ -29,8 +29,8 @@ WIDE_FROM = 0.05
 less, as a pass takes from each vertex a little of what its neighbors had."""
 
 WEAK = 0.01
-"""Strength in local edge lengths of what neighbors have in common in what a pass took away, up to which nothing
-is said of the width: that may be relief."""
+"""Strength in local edge lengths of what neighbors have in common in what a pass took away, up to which
+nothing is said of the width: that may be relief."""
 
 LONG = 8.0
 """Length in mean lengths of the edges at its ends from which an edge is long."""
