@@ -47,7 +47,14 @@ class RegionOptions:
         False, "Invert", "Vertices move by one minus their weight: larger weights move less"
     )
     keep_hidden: bool = setting_field(
-        True, "Leave Hidden Alone", "Hidden vertices stay where they are, in Object Mode too"
+        True,
+        "Leave Hidden Alone",
+        "Hidden vertices and those of hidden faces stay where they are, in Object Mode too",
+    )
+    keep_mask: bool = setting_field(
+        True,
+        "Sculpt Mask",
+        "Vertices move by one minus their sculpt mask, in Object Mode too: masked ones stay where they are",
     )
     keep_sharp: bool = setting_field(
         False,

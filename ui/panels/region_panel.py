@@ -23,6 +23,7 @@ class VIEW3D_PT_framelet_region(FrameletPanel, bpy.types.Panel):
         settings = context.scene.framelet
         column = settings_column(self.layout)
         _draw_group(column, settings, context.active_object)
+        column.prop(settings, "keep_mask")
         column.prop(settings, "keep_hidden")
         column.prop(settings, "keep_sharp")
         column.prop(settings, "boundary")

@@ -12,9 +12,14 @@ TEXTS = {
         "Punkte bewegen sich um eins minus ihr Gewicht: größere Gewichte bewegen sich weniger"
     ),
     "Leave Hidden Alone": "Verborgenes lassen",
-    "Hidden vertices stay where they are, in Object Mode too": (
-        "Verborgene Punkte bleiben, wo sie sind, auch im Objektmodus"
+    "Hidden vertices and those of hidden faces stay where they are, in Object Mode too": (
+        "Verborgene Punkte und die verborgener Flächen bleiben, wo sie sind, auch im Objektmodus"
     ),
+    "Sculpt Mask": "Skulpturmaske",
+    "Vertices move by one minus their sculpt mask, in Object Mode too: masked ones stay where they are": (
+        "Punkte bewegen sich um eins minus ihre Skulpturmaske, auch im Objektmodus: maskierte bleiben, wo sie sind"
+    ),
+    "In Sculpt Mode: in place": "Im Skulpturmodus: am Ort",
     "Keep Sharp Edges": "Scharfe Kanten behalten",
     "Edges that are marked sharp or creased stay sharp: their vertices are smoothed along the edges only, and stay where such edges end, meet or turn a corner": (
         "Kanten, die als scharf oder mit Falte markiert sind, bleiben scharf: ihre Punkte werden nur entlang der Kanten geglättet und bleiben, wo solche Kanten enden, sich treffen oder abknicken"
