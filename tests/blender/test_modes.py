@@ -5,7 +5,6 @@
 import bpy
 import numpy as np
 import pytest
-
 from framelet.operators.mesh_io import mesh_bridge
 from framelet.operators.mesh_io.mesh_bridge import read_surface as read
 from meshes import noisy, triangle_torus

@@ -27,6 +27,8 @@ class VIEW3D_PT_framelet_region(FrameletPanel, bpy.types.Panel):
         column.prop(settings, "keep_hidden")
         column.prop(settings, "keep_sharp")
         column.prop(settings, "boundary")
+        if settings.boundary != "FIXED":
+            column.prop(settings, "straighten_borders")
         column.separator()
         column.prop(settings, "limit")
         if settings.limit != "NONE":

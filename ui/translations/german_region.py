@@ -15,6 +15,10 @@ TEXTS = {
     "Hidden vertices and those of hidden faces stay where they are, in Object Mode too": (
         "Verborgene Punkte und die verborgener Flächen bleiben, wo sie sind, auch im Objektmodus"
     ),
+    "Straighten Borders": "Ränder begradigen",
+    "Frayed and zigzag open borders become as smooth as the inside: each follows its own course, and corners stay corners": (
+        "Ausgefranste und gezackte offene Ränder werden so glatt wie das Innere: jeder folgt seinem Verlauf, und Ecken bleiben Ecken"
+    ),
     "Sculpt Mask": "Skulpturmaske",
     "Vertices move by one minus their sculpt mask, in Object Mode too: masked ones stay where they are": (
         "Punkte bewegen sich um eins minus ihre Skulpturmaske, auch im Objektmodus: maskierte bleiben, wo sie sind"
