@@ -16,7 +16,7 @@ from numpy.typing import DTypeLike, NDArray
 
 from .blocks import Blocks
 from .learned.engine import FaceEngine
-from .limits.constraints import Corners, find_constraints, find_corners
+from .limits.constraints import Constraints, Corners, find_constraints, find_corners
 from .limits.face_watch import FaceState
 from .limits.lines import find_lines, smoothing_of
 from .limits.placed import Placed

@@ -37,7 +37,8 @@ CORNER_TURN, CORNER_EXCESS = 55.0, 25.0
 """Degrees by which chords turn at a corner: at least the first, and by the second more than on a circle."""
 
 LEAST_REACH, REACH_OF_FRAY, LONGEST_REACH = 8.0, 8.0, 24
-"""Edges that a chord is long: the first, and as many more as the fray in steps of the curve times the second."""
+"""Edges that a chord is long: the first, and as many more as the fray in steps of the curve
+times the second."""
 
 
 @dataclass(frozen=True, eq=False)
