@@ -6,7 +6,16 @@ from bpy.utils import register_classes_factory
 
 from . import menus, translations
 from .legend import legend
-from .panels import band_panels, output_panel, panel, preset_panel, region_panel, report_panels, see_panel
+from .panels import (
+    band_panels,
+    outlier_panel,
+    output_panel,
+    panel,
+    preset_panel,
+    region_panel,
+    report_panels,
+    see_panel,
+)
 
 # Subpanels are shown in this order.
 classes = (
@@ -15,6 +24,7 @@ classes = (
     *see_panel.classes,
     *region_panel.classes,
     *output_panel.classes,
+    *outlier_panel.classes,
     *band_panels.classes,
     panel.VIEW3D_PT_framelet_advanced,
     *report_panels.classes,

@@ -15,6 +15,33 @@ TEXTS = {
     "Hidden vertices and those of hidden faces stay where they are, in Object Mode too": (
         "Verborgene Punkte und die verborgener Flächen bleiben, wo sie sind, auch im Objektmodus"
     ),
+    "Spikes and Islands": "Ausreißer und Inseln",
+    "Select Spikes": "Ausreißer auswählen",
+    "Flatten Spikes": "Ausreißer einebnen",
+    "Select Small Islands": "Kleine Inseln auswählen",
+    "Select single vertices and small clusters that are far off their surroundings, in Edit Mode": (
+        "Einzelne Punkte und kleine Gruppen auswählen, die weit von ihrer Umgebung entfernt sind, im Bearbeitungsmodus"
+    ),
+    "Bring spikes down to the surface around them; in Edit Mode the selected ones": (
+        "Ausreißer auf die Fläche um sie herum bringen; im Bearbeitungsmodus die ausgewählten"
+    ),
+    "Select small loose parts in Edit Mode, so that they can be deleted; the largest part is never one": (
+        "Kleine lose Teile im Bearbeitungsmodus auswählen, damit sie gelöscht werden können; das größte Teil ist nie darunter"
+    ),
+    "Least factor from the edges around a spike to its own: larger finds fewer spikes": (
+        "Kleinster Faktor von den Kanten um einen Ausreißer zu seinen eigenen: größer findet weniger"
+    ),
+    "How many vertices a spike has at most: larger finds wider ones": (
+        "Wie viele Punkte ein Ausreißer höchstens hat: größer findet breitere"
+    ),
+    "How many vertices an island has at most: larger selects larger ones": (
+        "Wie viele Punkte eine Insel höchstens hat: größer wählt größere aus"
+    ),
+    "Selected {number:,} vertices of spikes of {names}": "{number:,} Punkte von Ausreißern von {names} ausgewählt",
+    "Flattened {number:,} vertices of spikes of {names}": "{number:,} Punkte von Ausreißern von {names} eingeebnet",
+    "Selected {number:,} vertices of small islands of {names}": (
+        "{number:,} Punkte kleiner Inseln von {names} ausgewählt"
+    ),
     "Straighten Borders": "Ränder begradigen",
     "Frayed and zigzag open borders become as smooth as the inside: each follows its own course, and corners stay corners": (
         "Ausgefranste und gezackte offene Ränder werden so glatt wie das Innere: jeder folgt seinem Verlauf, und Ecken bleiben Ecken"
