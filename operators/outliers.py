@@ -11,7 +11,7 @@ import bpy
 from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..core.mesh.spikes import LENGTH, MOST
+from ..core.settings.outliers import SPIKE_LENGTH, SPIKE_VERTICES
 from .mesh_io import mesh_bridge
 from .mesh_io.region_bridge import read_region
 from .modifier.recipes import DISPLACEMENT
@@ -35,7 +35,7 @@ class SpikeMixin:
     length: bpy.props.FloatProperty(
         name="Length",
         description="Least factor from the edges around a spike to its own: larger finds fewer spikes",
-        default=LENGTH,
+        default=SPIKE_LENGTH,
         min=1.01,
         max=100.0,
         soft_max=10.0,
@@ -44,7 +44,7 @@ class SpikeMixin:
     most: bpy.props.IntProperty(
         name="Vertices",
         description="How many vertices a spike has at most: larger finds wider ones",
-        default=MOST,
+        default=SPIKE_VERTICES,
         min=1,
         max=1000,
         soft_max=50,
@@ -52,7 +52,7 @@ class SpikeMixin:
 
 
 def select_vertices(obj: bpy.types.Object, chosen: NDArray[np.bool_]) -> None:
-    """Select these vertices of an object in Edit Mode, shape (N,), and no others; hidden ones are left out."""
+    """Select these vertices of an object in Edit Mode, shape (N,), and no others; never hidden ones."""
     edit_mesh = bmesh.from_edit_mesh(obj.data)
     edit_mesh.select_mode = {"VERT"}
     for vert, is_chosen in zip(edit_mesh.verts, chosen.tolist(), strict=True):
@@ -61,7 +61,7 @@ def select_vertices(obj: bpy.types.Object, chosen: NDArray[np.bool_]) -> None:
     bmesh.update_edit_mesh(obj.data, loop_triangles=False, destructive=False)
 
 
-def flatten_spikes(obj: bpy.types.Object, length: float = LENGTH, most: int = MOST) -> int:
+def flatten_spikes(obj: bpy.types.Object, length: float = SPIKE_LENGTH, most: int = SPIKE_VERTICES) -> int:
     """Bring the spikes of an object down to the surface around them; in Edit Mode the selected ones.
 
     Parameters
@@ -88,7 +88,7 @@ def flatten_spikes(obj: bpy.types.Object, length: float = LENGTH, most: int = MO
         raise ValueError(reason)
     if find_modifier(obj, DISPLACEMENT) is not None:
         raise ValueError(
-            f"‘{obj.name}’ has the modifier of a run, which was made for its spikes; apply or remove it first."
+            f"‘{obj.name}’ has the modifier of a run, which counts on its spikes; apply or remove it first."
         )
     surface, movable, region = read_region(obj, RegionOptions())
     spikes = find_spikes(surface, length, most)

@@ -21,13 +21,14 @@ from .panels import (
 classes = (
     *preset_panel.classes,
     panel.VIEW3D_PT_framelet,
-    *see_panel.classes,
-    *region_panel.classes,
     *output_panel.classes,
-    *outlier_panel.classes,
-    *band_panels.classes,
-    panel.VIEW3D_PT_framelet_advanced,
+    *region_panel.classes,
+    *see_panel.classes,
     *report_panels.classes,
+    *band_panels.classes,
+    *outlier_panel.classes,
+    panel.VIEW3D_PT_framelet_advanced,
+    *report_panels.sample_classes,
     *menus.classes,
 )
 

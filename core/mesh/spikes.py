@@ -12,20 +12,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import RegionError
+from ..settings.outliers import SPIKE_LENGTH, SPIKE_VERTICES
 from .linking import linked_groups
 from .surface_mesh import SurfaceMesh
-
-LENGTH = 2.5
-"""Edges of a spike, in lengths of those around, by default."""
-
-MOST = 8
-"""Vertices of a spike, by default."""
 
 ROUNDS = 4
 """Rounds of means that a spike's vertices take for each vertex it may have."""
 
 
-def find_spikes(surface: SurfaceMesh, length: float = LENGTH, most: int = MOST) -> NDArray[np.bool_]:
+def find_spikes(
+    surface: SurfaceMesh, length: float = SPIKE_LENGTH, most: int = SPIKE_VERTICES
+) -> NDArray[np.bool_]:
     """Find the vertices of spikes.
 
     Parameters
@@ -120,7 +117,7 @@ def flattened(surface: SurfaceMesh, spikes: NDArray[np.bool_]) -> NDArray[np.flo
     known = ~spikes
     label = linked_groups(surface.n_vertices, here[spikes[there]], there[spikes[there]])
     largest = int(np.bincount(label[rows]).max(initial=1))
-    for _ in range(ROUNDS * max(largest, MOST)):
+    for _ in range(ROUNDS * max(largest, SPIKE_VERTICES)):
         counts = known[there].astype(np.float64)
         total = np.bincount(row[here], counts, len(count))[has_neighbors]
         sums = np.stack(

@@ -21,7 +21,7 @@ def test_the_search_for_texts_finds_them():
         ("*", "Select at least one mesh object"),
         ("*", "Showing {names} before denoising"),
         ("*", "Box Spline"),
-        ("*", "See It"),
+        ("*", "Result"),
         ("*", "Smoothing λ"),
         ("*", "Open mesh"),
         ("*", "{:.3f} edge lengths"),

@@ -4,7 +4,7 @@
 
 TEXTS = {
     # Region
-    "Region": "Bereich",
+    "Constraints": "Einschränkungen",
     "Vertices move by their weight in the group of this name: larger weights move farther, vertices with weight 0 or outside of the group stay; empty moves all": (
         "Punkte bewegen sich nach ihrem Gewicht in der Gruppe dieses Namens: größere Gewichte bewegen sich weiter, Punkte mit Gewicht 0 oder außerhalb bleiben; leer bewegt alle"
     ),
@@ -142,7 +142,8 @@ TEXTS = {
     "Make a mesh object active": "Ein Netz aktiv machen",
     "The live preview is off": "Die Vorschau ist aus",
     "The preview does not show these settings yet": "Die Vorschau zeigt diese Einstellungen noch nicht",
-    "Computing {name}": "{name} wird berechnet",
+    "Preview of {name}": "Vorschau von {name}",
+    "{progress}, {time} left": "{progress}, noch {time}",
     # A run that goes on
     "Framelet is not running": "Framelet läuft nicht",
     "Framelet is running; press Esc in the 3D View to cancel": "Framelet läuft; Esc in der 3D-Ansicht bricht ab",
@@ -153,9 +154,7 @@ TEXTS = {
     "{progress}   |   Esc or Right Click in the View: Cancel": (
         "{progress}   |   Esc oder Rechtsklick in der Ansicht: Abbrechen"
     ),
-    "Denoised {names}: {moved:,} of {total:,} vertices moved, {length} RMS ({edges:.3f} edge lengths), in {seconds:.2f} s": (
-        "{names} entrauscht: {moved:,} von {total:,} Punkten bewegt, {length} im Mittel ({edges:.3f} Kantenlängen), in {seconds:.2f} s"
-    ),
+    "Denoised {names} in {seconds:.1f} s": "{names} in {seconds:.1f} s entrauscht",
     "; noise {noise}": "; Rauschen {noise}",
     "; used {what}": "; verwendet: {what}",
     "‘{name}’ is far from the origin of its object, where positions come in steps of {edges:.2g} edge lengths; "
@@ -163,8 +162,5 @@ TEXTS = {
     "von {edges:.2g} Kantenlängen liegen; verschieben Sie zuerst die Punkte dorthin",
     "; clean already": "; schon sauber",
     "; Strength is 0": "; Stärke ist 0",
-    "; noise {lengths} ({edges} edge lengths)": "; Rauschen {lengths} ({edges} Kantenlängen)",
-    ", about {width:.1f} edges wide": ", etwa {width:.1f} Kanten breit",
-    ", {share:.2g} % spikes": ", {share:.2g} % Ausreißer",
-    "; {share:.3g} % was clean and stayed": "; {share:.3g} % waren sauber und blieben",
+    ": noise of {lengths} removed": ": Rauschen von {lengths} entfernt",
 }

@@ -7,7 +7,11 @@ TEXTS = {
     "Advanced": "Erweitert",
     "Last Run": "Letzter Lauf",
     "Noise": "Rauschen",
-    "Try It": "Ausprobieren",
+    "Sample Data": "Beispieldaten",
+    "Learned, on face normals": "Gelernt, auf Flächennormalen",
+    "None, fitted at once": "Keiner, Punkte direkt angepasst",
+    "By the noise at each place": "Nach dem Rauschen an jeder Stelle",
+    "Noise of {range} edges": "Rauschen von {range} Kanten",
     # What a run took for noise
     "Strength is 0": "Stärke ist 0",
     "Clean already": "Schon sauber",
