@@ -10,6 +10,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from .heat_map import refresh_heat
 from .mesh_io.coarseness import coarse_step
+from .mesh_io.hints import hints
 from .mesh_io.mesh_bridge import read_positions
 from .preview.targets import names_text
 from .properties.scene_units import noise_text, range_text
@@ -36,7 +37,9 @@ def report_written(
     fill_report(report, measured)
     fill_estimate_of_run(context.window_manager.framelet_estimate, measured)
     refresh_heat(context, [item.obj for item in written])
+    notes = [item.note for item in written]
     for item in written:
+        notes += hints(item.original)
         edge = item.measured.report.mean_edge_length
         step = (
             coarse_step(read_positions(item.original.data), edge) if item.original.mode == "OBJECT" else 0.0
@@ -55,7 +58,7 @@ def report_written(
             names=names_text(list(measured)), seconds=report.seconds
         )
         + _noise_words(context.scene, report)
-        + "".join(f"; {note}" for note in dict.fromkeys(item.note for item in written) if note),
+        + "".join(f"; {note}" for note in dict.fromkeys(notes) if note),
     )
 
 

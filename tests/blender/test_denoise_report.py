@@ -257,3 +257,20 @@ def test_a_mesh_far_from_its_origin_is_told(capfd):
     words = capfd.readouterr()
     found = re.search(r"positions come in steps of (\S+) edge lengths", words.out + words.err)
     assert float(found[1]) == pytest.approx(2**-6 / edge, rel=0.05)
+
+
+@pytest.mark.parametrize(
+    ("prepare", "words"),
+    [
+        (lambda obj: setattr(obj, "scale", (1.0, 1.0, 3.0)), "scaled unevenly: apply its scale"),
+        (lambda obj: obj.modifiers.new("Subdivision", "SUBSURF"), "the cage was denoised"),
+        (lambda obj: setattr(obj, "scale", (3.0, 3.0, -3.0)), None),
+    ],
+)
+def test_the_sentence_names_the_way_out(prepare, words, capfd):
+    prepare(noisy_monkey())
+    bpy.context.view_layer.update()
+    bpy.ops.object.framelet_denoise(preset="TRI_2")
+    out = capfd.readouterr().out
+    assert ("unevenly" in out or "cage" in out) == (words is not None)
+    assert words is None or words in out

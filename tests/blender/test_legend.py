@@ -220,7 +220,7 @@ def test_angles_are_in_degrees(torus):
     title, labels, note = texts()
     highest = bpy.context.window_manager.framelet_band_range.maximum
     assert title == "Angle change of faces"
-    assert labels == ["0°", f"{highest / 2:.4g}°", f"{highest:.4g}°"]
+    assert labels == ["0°", f"{highest / 2:.3g}°", f"{highest:.3g}°"]
     assert note == ""
 
 

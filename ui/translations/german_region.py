@@ -162,5 +162,11 @@ TEXTS = {
     "von {edges:.2g} Kantenlängen liegen; verschieben Sie zuerst die Punkte dorthin",
     "; clean already": "; schon sauber",
     "; Strength is 0": "; Stärke ist 0",
+    "the object is scaled unevenly: apply its scale (Ctrl A) and denoise again": (
+        "das Objekt ist ungleich skaliert: seine Skalierung anwenden (Strg A) und noch einmal entrauschen"
+    ),
+    "the cage was denoised: to clean what Subdivision shows, apply it first": (
+        "das Grundnetz wurde entrauscht: für das, was Unterteilung zeigt, den Modifikator zuerst anwenden"
+    ),
     ": noise of {lengths} removed": ": Rauschen von {lengths} entfernt",
 }
