@@ -17,6 +17,12 @@ from .setting_values import CUSTOM, DEFINING, FRAME_NAMES, follow_preset, leave_
 FIELDS = {item.name: item for item in fields(DenoiseSettings)}
 """The settings by name."""
 
+CONTEXT = "Framelet"
+"""The context of words that mean something else in Blender."""
+
+OWN_WORDS = ("boundary", "frame")
+"""Settings whose names Blender's dictionaries take for a sound's end and a picture of a film."""
+
 _DEFAULTS = PRESETS[DEFAULT_PRESET].settings
 
 FIRST_OF_RESEARCH = "POSITIONS"
@@ -77,6 +83,8 @@ def setting_property(item: Field, **options: Any) -> Any:
         "default": getattr(_DEFAULTS, item.name),
         "options": set(),
     } | options
+    if item.name in OWN_WORDS:
+        common["translation_context"] = CONTEXT
     if info.choices:
         return bpy.props.EnumProperty(items=_items(item.name, info.choices), **common)
     common |= {"min": info.minimum, "max": info.maximum}
