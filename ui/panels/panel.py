@@ -17,7 +17,6 @@ from ...operators.modifier.recipes import DISPLACEMENT
 from ...operators.modifier.stack import find_modifier
 from ...operators.properties.scene_units import range_text
 from ...operators.properties.setting_values import copy_settings, has_effect, is_replaced, write_quietly
-from ...operators.properties.settings import CONTEXT
 from ...operators.run.run_memory import known_side
 from .layouts import FrameletPanel, draw_settings, draw_value, settings_column
 from .modifier_rows import draw_amount
@@ -122,7 +121,7 @@ def _draw_learned(layout: bpy.types.UILayout, context: bpy.types.Context) -> Non
     entry = obj and context.window_manager.framelet_estimate.objects.get(obj.name)
     column = layout.column(align=True)
     column.active = False
-    draw_value(column, iface_("Frame", CONTEXT), n_("Learned, on face normals"))
+    draw_value(column, iface_("Frame", "Framelet"), n_("Learned, on face normals"))
     draw_value(column, n_("Levels"), str(N_SCALES))
     draw_value(column, n_("Smoothing λ"), _noise_words(entry))
     draw_value(column, n_("Penalty μ"), n_("None, fitted at once"))
