@@ -325,22 +325,11 @@ def read_positions(mesh: bpy.types.Mesh) -> NDArray[np.float32]:
     return vertices
 
 
-def read_flag(mesh: bpy.types.Mesh, name: str) -> NDArray[np.bool_]:
-    """Read a vertex attribute of truth values; Blender leaves it away when all are false."""
+def read_flag(mesh: bpy.types.Mesh, name: str, *, of_faces: bool = False) -> NDArray[np.bool_]:
+    """Read truth values of vertices, or of faces; Blender leaves the attribute away when all are false."""
     import numpy as np
 
-    values = np.zeros(len(mesh.vertices), np.bool_)
-    attribute = mesh.attributes.get(name)
-    if attribute is not None:
-        attribute.data.foreach_get("value", values)
-    return values
-
-
-def read_face_flag(mesh: bpy.types.Mesh, name: str) -> NDArray[np.bool_]:
-    """Read a face attribute of truth values; Blender leaves it away when all are false."""
-    import numpy as np
-
-    values = np.zeros(len(mesh.polygons), np.bool_)
+    values = np.zeros(len(mesh.polygons if of_faces else mesh.vertices), np.bool_)
     attribute = mesh.attributes.get(name)
     if attribute is not None:
         attribute.data.foreach_get("value", values)

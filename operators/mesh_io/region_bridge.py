@@ -112,7 +112,7 @@ def _vertices_of_hidden_faces(mesh: bpy.types.Mesh, surface: SurfaceMesh) -> NDA
     """Return the corners of hidden faces, as vertices, so that nothing changes that is not seen."""
     import numpy as np
 
-    hidden = mesh_bridge.read_face_flag(mesh, HIDDEN_FACE)
+    hidden = mesh_bridge.read_flag(mesh, HIDDEN_FACE, of_faces=True)
     return surface.corner_vertex[np.repeat(hidden, np.diff(surface.face_offset))]
 
 
