@@ -119,7 +119,7 @@ def test_automatic_has_a_gray_row_for_each_parameter_of_the_paper():
     bpy.ops.object.framelet_denoise()
     words = table(draw(panel.VIEW3D_PT_framelet)["label"])["Smoothing λ"]
     report = bpy.context.window_manager.framelet_report
-    assert words == f"Noise of {range_text(report.sigma_low_edges, report.sigma_high_edges)} edges"
+    assert words == f"{range_text(report.sigma_low_edges, report.sigma_high_edges)} edges"
 
 
 def test_subpanels_stand_in_the_order_of_work():

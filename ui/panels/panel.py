@@ -134,7 +134,7 @@ def _noise_words(entry: bpy.types.PropertyGroup | None) -> str:
     if entry.is_off or entry.is_clean:
         return n_("Strength is 0") if entry.is_off else n_("Clean already")
     edges = range_text(entry.sigma_low_edges, entry.sigma_high_edges)
-    return iface_("Noise of {range} edges").format(range=edges)
+    return iface_("{range} edges").format(range=edges)
 
 
 def _draw_chosen(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:

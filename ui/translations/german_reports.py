@@ -11,7 +11,6 @@ TEXTS = {
     "Learned, on face normals": "Gelernt, auf Flächennormalen",
     "None, fitted at once": "Keiner, Punkte direkt angepasst",
     "By the noise at each place": "Nach dem Rauschen an jeder Stelle",
-    "Noise of {range} edges": "Rauschen von {range} Kanten",
     # What a run took for noise
     "Strength is 0": "Stärke ist 0",
     "Clean already": "Schon sauber",
