@@ -16,10 +16,11 @@ from numpy.typing import DTypeLike, NDArray
 
 from .blocks import Blocks
 from .learned.engine import FaceEngine
-from .limits.constraints import Corners, find_constraints, find_corners
+from .limits.constraints import Constraints, Corners, find_constraints, find_corners
 from .limits.face_watch import FaceState
 from .limits.lines import find_lines, smoothing_of
 from .limits.placed import Placed
+from .limits.straight_borders import find_curves, straightened
 from .mesh.checks import check_positions, check_surface
 from .mesh.connectivity import Connectivity, connect
 from .mesh.locality import Reordering, is_scattered, reorder, spatial_order
@@ -105,9 +106,12 @@ class Prepared:
         constraints = find_constraints(
             self.ordered, self.connectivity, settings, placed.movable, self.noisy.dtype, self.corners
         )
+        given = self.noisy
+        if placed.straighten_borders:
+            given, constraints = self._with_straight_borders(constraints)
         problem = Problem(
-            noisy=self.noisy,
-            given=self.noisy,
+            noisy=given,
+            given=given,
             surface=self.ordered,
             connectivity=self.connectivity,
             edge=self.edge,
@@ -120,15 +124,25 @@ class Prepared:
         )
         if placed.feature_edges is None:
             return problem
-        lines = find_lines(self.noisy, placed.feature_edges, constraints.pinned)
-        noisy = self.noisy.copy()
-        noisy[:, lines.inner] += smoothing_of(self.noisy, lines, _line_strength(settings)).astype(noisy.dtype)
+        lines = find_lines(given, placed.feature_edges, constraints.pinned)
+        noisy = given.copy()
+        noisy[:, lines.inner] += smoothing_of(given, lines, _line_strength(settings)).astype(noisy.dtype)
         return replace(
             problem,
             noisy=noisy,
             constraints=constraints.with_pinned(lines.vertices),
             line_vertices=len(lines.vertices),
         )
+
+    def _with_straight_borders(self, constraints: Constraints) -> tuple[NDArray[np.floating], Constraints]:
+        """Return the positions with smooth borders, and constraints that keep what was moved there."""
+        curves = find_curves(self.connectivity.boundary_neighbors)
+        stays = np.zeros(self.noisy.shape[1], bool)
+        stays[constraints.pinned] = True
+        motion = straightened(self.noisy, curves, stays).astype(self.noisy.dtype)
+        points = self.noisy.copy()
+        points[:, curves.vertices] += motion
+        return points, constraints.with_pinned(curves.vertices[motion.any(axis=0)])
 
     def motion(self, points: NDArray[np.floating], blocks: Blocks) -> NDArray[np.float64]:
         """Return the displacements, shape (3, N), in scene units, to points of normalized space."""

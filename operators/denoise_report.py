@@ -10,9 +10,10 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from .heat_map import refresh_heat
 from .mesh_io.coarseness import coarse_step
+from .mesh_io.hints import hints
 from .mesh_io.mesh_bridge import read_positions
 from .preview.targets import names_text
-from .properties.scene_units import LEAST_WIDTH, length_text, noise_text, range_text
+from .properties.scene_units import noise_text, range_text
 from .reports.filled_reports import fill_estimate_of_run, fill_report
 from .run.output import select_instead
 
@@ -36,7 +37,9 @@ def report_written(
     fill_report(report, measured)
     fill_estimate_of_run(context.window_manager.framelet_estimate, measured)
     refresh_heat(context, [item.obj for item in written])
+    notes = [item.note for item in written]
     for item in written:
+        notes += hints(item.original)
         edge = item.measured.report.mean_edge_length
         step = (
             coarse_step(read_positions(item.original.data), edge) if item.original.mode == "OBJECT" else 0.0
@@ -51,19 +54,11 @@ def report_written(
             )
     operator.report(
         {"INFO"},
-        rpt_(
-            "Denoised {names}: {moved:,} of {total:,} vertices moved, {length} RMS "
-            "({edges:.3f} edge lengths), in {seconds:.2f} s"
-        ).format(
-            names=names_text(list(measured)),
-            moved=report.n_moved,
-            total=report.n_vertices,
-            length=length_text(context.scene, report.displacement_rms),
-            edges=report.displacement_rms_edges,
-            seconds=report.seconds,
+        rpt_("Denoised {names} in {seconds:.1f} s").format(
+            names=names_text(list(measured)), seconds=report.seconds
         )
         + _noise_words(context.scene, report)
-        + "".join(f"; {note}" for note in dict.fromkeys(item.note for item in written) if note),
+        + "".join(f"; {note}" for note in dict.fromkeys(notes) if note),
     )
 
 
@@ -84,14 +79,6 @@ def _belief_words(scene: bpy.types.Scene, report: FrameletReport) -> str:
         return rpt_("; Strength is 0")
     if report.is_clean:
         return rpt_("; clean already")
-    words = rpt_("; noise {lengths} ({edges} edge lengths)").format(
-        lengths=range_text(report.sigma_low, report.sigma_high, scene),
-        edges=range_text(report.sigma_low_edges, report.sigma_high_edges),
-    )
-    if report.width > LEAST_WIDTH:
-        words += rpt_(", about {width:.1f} edges wide").format(width=report.width)
-    if report.spikes:
-        words += rpt_(", {share:.2g} % spikes").format(share=report.spikes)
-    if report.clean:
-        words += rpt_("; {share:.3g} % was clean and stayed").format(share=report.clean)
-    return words
+    # In one breath: Last Run has the rest.
+    lengths = range_text(report.sigma_low, report.sigma_high, scene)
+    return rpt_(": noise of {lengths} removed").format(lengths=lengths)

@@ -6,7 +6,7 @@ import bpy
 from bpy.utils import register_classes_factory
 
 from ..core.processors import use_processors
-from . import edit_modifier, handlers
+from . import edit_modifier, handlers, outliers
 from .add_noise import OBJECT_OT_framelet_add_noise
 from .analyze import OBJECT_OT_framelet_analyze, OBJECT_OT_framelet_clear
 from .before_after import OBJECT_OT_framelet_before_after
@@ -63,6 +63,7 @@ classes = (
     OBJECT_OT_framelet_hide_colors,
     OBJECT_OT_framelet_preset_add,
     *edit_modifier.classes,
+    *outliers.classes,
 )
 
 POINTERS = (

@@ -6,18 +6,29 @@ from bpy.utils import register_classes_factory
 
 from . import menus, translations
 from .legend import legend
-from .panels import band_panels, output_panel, panel, preset_panel, region_panel, report_panels, see_panel
+from .panels import (
+    band_panels,
+    outlier_panel,
+    output_panel,
+    panel,
+    preset_panel,
+    region_panel,
+    report_panels,
+    see_panel,
+)
 
 # Subpanels are shown in this order.
 classes = (
     *preset_panel.classes,
     panel.VIEW3D_PT_framelet,
-    *see_panel.classes,
-    *region_panel.classes,
     *output_panel.classes,
-    *band_panels.classes,
-    panel.VIEW3D_PT_framelet_advanced,
+    *region_panel.classes,
+    *see_panel.classes,
     *report_panels.classes,
+    *band_panels.classes,
+    *outlier_panel.classes,
+    panel.VIEW3D_PT_framelet_advanced,
+    *report_panels.sample_classes,
     *menus.classes,
 )
 

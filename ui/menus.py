@@ -25,6 +25,7 @@ from ..operators.edit_modifier import (
 from ..operators.equalize import OBJECT_OT_framelet_equalize, OBJECT_OT_framelet_live_equalizer
 from ..operators.estimate_noise import OBJECT_OT_framelet_estimate_noise
 from ..operators.heat_map import OBJECT_OT_framelet_heat_map, OBJECT_OT_framelet_hide_colors
+from ..operators.outliers import classes as outlier_operators
 from ..operators.properties.band_settings import EQUALIZER_NAMES, SHOW_NAMES
 from ..operators.properties.setting_values import (
     copy_frame_settings,
@@ -69,6 +70,9 @@ class VIEW3D_MT_framelet(bpy.types.Menu):
         copy_values(scene.framelet_bands, operator, SHOW_NAMES)
         layout.operator(OBJECT_OT_framelet_synthesize.bl_idname)
         layout.operator(OBJECT_OT_framelet_clear.bl_idname)
+        layout.separator()
+        for each in outlier_operators:
+            layout.operator(each.bl_idname)
         layout.separator()
         layout.operator(OBJECT_OT_framelet_estimate_noise.bl_idname)
         layout.operator(OBJECT_OT_framelet_add_noise.bl_idname)

@@ -39,6 +39,8 @@ class Placed:
         Pairs of vertices; None for none.
     reordering : Reordering or None
         Other numbers of `surface`, by which the arrays above go.
+    straighten_borders : bool
+        Whether borders become smooth curves.
     """
 
     original: SurfaceMesh
@@ -48,6 +50,7 @@ class Placed:
     weights: NDArray[np.float64] | None
     feature_edges: NDArray[np.integer] | None
     reordering: Reordering | None = None
+    straighten_borders: bool = False
 
     def renumbered(self, reordering: Reordering | None) -> Placed:
         """Return the same with the numbers of a reordering of `surface`, if there is one."""
@@ -146,7 +149,9 @@ def place(region: Region, surface: SurfaceMesh, movable: NDArray[np.bool_] | Non
         raise RegionError(
             "No vertex may move: those that are selected have weight 0, or lie on others that may not move."
         )
-    return Placed(surface, worked, weld, movable, weights, edges)
+    return Placed(
+        surface, worked, weld, movable, weights, edges, straighten_borders=region.straighten_borders
+    )
 
 
 def _new_numbers(reordering: Reordering) -> NDArray[np.intp]:

@@ -38,6 +38,8 @@ class Region:
         Vertices that may be welded, as those of borders; None for all.
     repair_folds : bool
         Whether motions that fold faces are taken back.
+    straighten_borders : bool
+        Whether frayed and zigzag borders become smooth, see `straight_borders.py`.
 
     Raises
     ------
@@ -53,6 +55,7 @@ class Region:
     weld_distance: float | None = None
     weldable: NDArray[np.bool_] | None = None
     repair_folds: bool = True
+    straighten_borders: bool = False
 
     def __post_init__(self) -> None:
         if self.weights is not None:

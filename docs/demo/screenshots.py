@@ -108,18 +108,18 @@ def show_group(session: Session) -> None:
 
 SHOTS = (
     Shot("window_start", (), rest),
-    Shot("window_denoised", ("last_run",), denoise),
+    Shot("window_denoised", ("see", "last_run"), denoise),
     Shot("window_heat_map", ("see",), show_heat),
     Shot("window_bands", ("bands",), show_band),
     Shot("window_cancel", (), run_long, "WINDOW", 4),
     Shot("panel", (), denoise, "UI"),
     Shot("panel_tri_2", ("advanced",), choose_tri_2, "UI"),
-    Shot("panel_region", ("region",), show_group, "UI"),
+    Shot("panel_region", ("mask", "region"), show_group, "UI"),
     Shot("panel_output", ("output",), denoise, "UI"),
     Shot("panel_equalizer", ("equalizer",), rest, "UI"),
     Shot("panel_live_equalizer", ("equalizer",), make_live, "UI"),
     Shot("panel_see", ("see",), show_heat, "UI"),
-    Shot("panel_last_run", ("last_run", "noise"), denoise_and_scroll, "UI"),
+    Shot("panel_last_run", ("see", "last_run", "noise"), denoise_and_scroll, "UI"),
     Shot("panel_try_it", ("try_it",), rest, "UI"),
 )
 

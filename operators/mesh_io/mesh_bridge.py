@@ -27,6 +27,10 @@ if TYPE_CHECKING:
     from ...core import SurfaceMesh
 
 
+MODES = frozenset({"OBJECT", "EDIT", "SCULPT", "VERTEX_PAINT", "WEIGHT_PAINT", "TEXTURE_PAINT"})
+"""Modes of objects in which Framelet reads and writes their meshes."""
+
+
 def kind_refusal(obj: bpy.types.Object | None) -> str | None:
     """Say in one sentence why an object has no mesh; None if it has one."""
     if obj is None:
@@ -57,6 +61,16 @@ def ownership_refusal(obj: bpy.types.Object | None) -> str | None:
     return None
 
 
+def mode_refusal(obj: bpy.types.Object) -> str | None:
+    """Say in one sentence why the mesh of an object cannot be edited in its mode; None if it can be."""
+    if obj.mode not in MODES:
+        return f"‘{obj.name}’ is in another mode; switch to Object Mode, Edit Mode or Sculpt Mode."
+    if obj.mode == "SCULPT" and obj.use_dynamic_topology_sculpting:
+        # The mesh then is in a session that no script can read.
+        return f"‘{obj.name}’ is sculpted with Dyntopo; turn it off, or switch to Object Mode."
+    return None
+
+
 def faces_refusal(obj: bpy.types.Object) -> str | None:
     """Say in one sentence that a mesh has no faces; None if it has."""
     mesh = obj.data
@@ -70,8 +84,9 @@ def refusal(obj: bpy.types.Object | None) -> str | None:
     if obj is None or reason is not None:
         return reason
     name = f"‘{obj.name}’"
-    if obj.mode not in {"OBJECT", "EDIT"}:
-        return f"{name} is in another mode; switch to Object Mode or Edit Mode."
+    reason = mode_refusal(obj)
+    if reason is not None:
+        return reason
     key = obj.active_shape_key
     if key is not None and key.lock_shape:
         return f"The active shape key ‘{key.name}’ of {name} is locked; unlock it or choose another one."
@@ -226,6 +241,7 @@ def write_vertices(
         if reference in [active, *dependent]:
             write_positions(mesh, read_key_points(reference))
     mesh.update()
+    mesh.update_tag()  # in Sculpt Mode what is drawn is made again
     return positions
 
 
@@ -309,11 +325,11 @@ def read_positions(mesh: bpy.types.Mesh) -> NDArray[np.float32]:
     return vertices
 
 
-def read_flag(mesh: bpy.types.Mesh, name: str) -> NDArray[np.bool_]:
-    """Read a vertex attribute of truth values; Blender leaves it away when all are false."""
+def read_flag(mesh: bpy.types.Mesh, name: str, *, of_faces: bool = False) -> NDArray[np.bool_]:
+    """Read truth values of vertices, or of faces; Blender leaves the attribute away when all are false."""
     import numpy as np
 
-    values = np.zeros(len(mesh.vertices), np.bool_)
+    values = np.zeros(len(mesh.polygons if of_faces else mesh.vertices), np.bool_)
     attribute = mesh.attributes.get(name)
     if attribute is not None:
         attribute.data.foreach_get("value", values)

@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What limits a run to parts of an object: selection, hidden vertices, a vertex group, sharp edges."""
+"""What limits a run to parts of an object: selection, hidden faces, masks, a vertex group, sharp edges."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from ..properties.scene_units import linear_part
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
 
 SELECTED = ".select_vert"
 HIDDEN = ".hide_vert"
+HIDDEN_FACE = ".hide_poly"
+MASK = ".sculpt_mask"
 SHARP = "sharp_edge"
 CREASE = "crease_edge"
 """Blender's names of attributes, which it leaves away where all values are false or 0."""
@@ -38,7 +41,7 @@ def read_region(obj: bpy.types.Object, options: RegionOptions) -> RegionRead:
     Parameters
     ----------
     obj : bpy.types.Object
-        A mesh object in Object Mode or Edit Mode; its active shape key is read.
+        A mesh object in one of `mesh_bridge.MODES`; its active shape key is read.
     options : RegionOptions
         What the user asks for.
 
@@ -53,7 +56,9 @@ def read_region(obj: bpy.types.Object, options: RegionOptions) -> RegionRead:
     is_edited = obj.data.is_editmode
     with mesh_bridge.readable_mesh(obj) as mesh:
         surface = mesh_bridge.read_arrays(mesh, None if is_edited else mesh_bridge.active_key(obj))
-        movable = _movable(obj, mesh, is_edited, options)
+        movable = _movable(obj, mesh, surface, is_edited, options)
+        # In Edit Mode the selection says what moves; a mask is not seen there.
+        free = _unmasked(mesh) if options.keep_mask and not is_edited else None
         sharp = _sharp_edges(mesh, surface) if options.keep_sharp else None
     weights = None
     if options.vertex_group:
@@ -66,13 +71,23 @@ def read_region(obj: bpy.types.Object, options: RegionOptions) -> RegionRead:
                 f"The vertex group ‘{options.vertex_group}’{inverted} of ‘{obj.name}’ gives no weight to any "
                 f"of its {which}; give them weights, or choose another group."
             )
+    if free is not None:
+        moves = free > 0.0 if movable is None else movable & (free > 0.0)
+        if not moves.any():
+            raise ValueError(
+                f"All vertices of ‘{obj.name}’ that may move are masked; clear the mask where it should be "
+                "denoised, or turn off Sculpt Mask."
+            )
     edge = mean_edge_length(surface) if options.limit == "EDGES" else 0.0
     border = border_vertices(surface) if options.weld else None
-    return RegionRead(surface, movable, options.region(edge, _largest_scale(obj), weights, sharp, border))
+    region = options.region(edge, _largest_scale(obj), weights, sharp, border)
+    if free is not None:
+        region = replace(region, weights=free if region.weights is None else region.weights * free)
+    return RegionRead(surface, movable, region)
 
 
 def _movable(
-    obj: bpy.types.Object, mesh: bpy.types.Mesh, is_edited: bool, options: RegionOptions
+    obj: bpy.types.Object, mesh: bpy.types.Mesh, surface: SurfaceMesh, is_edited: bool, options: RegionOptions
 ) -> NDArray[np.bool_] | None:
     """Return which vertices may move; None for all."""
     hidden = mesh_bridge.read_flag(mesh, HIDDEN)
@@ -82,14 +97,35 @@ def _movable(
         if not movable.any():
             raise ValueError(f"‘{obj.name}’ has no selected vertices; select what should be denoised.")
         return movable
+    if options.keep_hidden:
+        hidden[_vertices_of_hidden_faces(mesh, surface)] = True
     if not options.keep_hidden or not hidden.any():
         return None
     if hidden.all():
         raise ValueError(
-            f"All vertices of ‘{obj.name}’ are hidden; reveal some in Edit Mode, or turn off Leave Hidden "
-            "Alone."
+            f"All vertices of ‘{obj.name}’ are hidden; reveal some, or turn off Leave Hidden Alone."
         )
     return ~hidden
+
+
+def _vertices_of_hidden_faces(mesh: bpy.types.Mesh, surface: SurfaceMesh) -> NDArray[np.int32]:
+    """Return the corners of hidden faces, as vertices, so that nothing changes that is not seen."""
+    import numpy as np
+
+    hidden = mesh_bridge.read_flag(mesh, HIDDEN_FACE, of_faces=True)
+    return surface.corner_vertex[np.repeat(hidden, np.diff(surface.face_offset))]
+
+
+def _unmasked(mesh: bpy.types.Mesh) -> NDArray[np.float64] | None:
+    """Return one minus the sculpt mask, shape (N,), from 0 to 1; None where nothing is masked."""
+    import numpy as np
+
+    attribute = mesh.attributes.get(MASK)
+    if attribute is None:
+        return None
+    mask = np.zeros(len(mesh.vertices), np.float32)
+    attribute.data.foreach_get("value", mask)
+    return 1.0 - np.clip(mask.astype(np.float64), 0.0, 1.0) if mask.any() else None
 
 
 def _sharp_edges(mesh: bpy.types.Mesh, surface: SurfaceMesh) -> NDArray[np.int32]:

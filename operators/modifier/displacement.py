@@ -26,8 +26,9 @@ def refusal(obj: bpy.types.Object) -> str | None:
     reason = mesh_bridge.ownership_refusal(obj)
     if reason is not None:
         return reason
-    if obj.mode not in {"OBJECT", "EDIT"}:
-        return f"‘{obj.name}’ is in another mode; switch to Object Mode or Edit Mode."
+    reason = mesh_bridge.mode_refusal(obj)
+    if reason is not None:
+        return reason
     if not obj.is_editable:
         return f"‘{obj.name}’ is linked, so that it cannot get a modifier; make it local first."
     return mesh_bridge.faces_refusal(obj)

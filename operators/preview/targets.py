@@ -14,6 +14,9 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from ..mesh_io.band_storage import has_note
 from .current_preview import end_preview
 
+MODES = frozenset({"OBJECT", "EDIT_MESH", "SCULPT", "PAINT_VERTEX", "PAINT_WEIGHT", "PAINT_TEXTURE"})
+"""Modes, by the context's names, that have meshes to work on."""
+
 Result = TypeVar("Result")
 Progress = Callable[[float, float], bool]
 
@@ -22,8 +25,8 @@ def poll_reason(context: bpy.types.Context, *, in_object_mode: bool = False) -> 
     """Say why there is nothing to work on, or not in this mode; None if there is."""
     if in_object_mode and context.mode != "OBJECT":
         return n_("Switch to Object Mode")
-    if context.mode not in {"OBJECT", "EDIT_MESH"}:
-        return n_("Switch to Object Mode, or to Edit Mode of a mesh")
+    if context.mode not in MODES:
+        return n_("Switch to Object Mode, or to Edit Mode or Sculpt Mode of a mesh")
     if not target_objects(context):
         return n_("Select at least one mesh object")
     return None
@@ -47,11 +50,15 @@ def allows(operator: type[bpy.types.Operator], reason: str | None) -> bool:
 def target_objects(context: bpy.types.Context) -> list[bpy.types.Object]:
     """Return the objects to work on, one for each mesh.
 
-    In Edit Mode these are the objects in it, in Object Mode the selected mesh objects. Of objects that share
-    a mesh the active one stands for all, since its active shape key is the one that the user sees.
+    In Edit Mode these are the objects in it, when sculpting or painting the active object, in Object Mode the
+    selected mesh objects. Of objects that share a mesh the active one stands for all, since its active shape
+    key is the one that the user sees.
     """
     if context.mode == "EDIT_MESH":
         return list(context.objects_in_mode_unique_data)
+    if context.mode != "OBJECT":
+        active = context.active_object
+        return [] if active is None or active.type != "MESH" else [active]
     selected = [obj for obj in context.selected_objects if obj.type == "MESH"]
     selected.sort(key=lambda obj: obj != context.active_object)
     return list({obj.data: obj for obj in reversed(selected)}.values())[::-1]

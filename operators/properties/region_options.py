@@ -47,7 +47,14 @@ class RegionOptions:
         False, "Invert", "Vertices move by one minus their weight: larger weights move less"
     )
     keep_hidden: bool = setting_field(
-        True, "Leave Hidden Alone", "Hidden vertices stay where they are, in Object Mode too"
+        True,
+        "Leave Hidden Alone",
+        "Hidden vertices and those of hidden faces stay where they are, in Object Mode too",
+    )
+    keep_mask: bool = setting_field(
+        True,
+        "Sculpt Mask",
+        "Vertices move by one minus their sculpt mask, in Object Mode too: masked ones stay where they are",
     )
     keep_sharp: bool = setting_field(
         False,
@@ -112,6 +119,13 @@ class RegionOptions:
         True, "Repair Folds", "Where faces would fold over, their vertices move less"
     )
 
+    straighten_borders: bool = setting_field(
+        False,
+        "Straighten Borders",
+        "Frayed and zigzag open borders become as smooth as the inside: each follows its own course, and "
+        "corners stay corners",
+    )
+
     def __post_init__(self) -> None:
         for item in fields(self):
             check_value(item.metadata["info"], str(item.type), getattr(self, item.name))
@@ -157,6 +171,7 @@ class RegionOptions:
             weld_distance=_unscaled(self.weld_distance, scale) if self.weld else None,
             weldable=border if self.weld and not self.weld_distance else None,
             repair_folds=self.repair_folds,
+            straighten_borders=self.straighten_borders,
         )
 
 

@@ -43,5 +43,6 @@ def shown_region_names(properties: Any) -> list[str]:
         "max_edges": properties.limit == "EDGES",
         "max_length": properties.limit == "LENGTH",
         "weld_distance": properties.weld,
+        "straighten_borders": properties.boundary != "FIXED",
     }
     return [name for name in REGION_NAMES if needs.get(name, True)]

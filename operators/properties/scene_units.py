@@ -162,7 +162,7 @@ def value_texts(scene: bpy.types.Scene, values: Sequence[float], unit: str = "LE
     if unit == "LENGTH":
         sign, size = _unit_of(scene, max(map(abs, values)))
     # A true minus sign, as wide as a plus; and no zero has one.
-    return [f"{'−' if value < 0.0 else ''}{abs(value) / size:.4g}{sign}" for value in values]
+    return [f"{'−' if value < 0.0 else ''}{abs(value) / size:.3g}{sign}" for value in values]
 
 
 def _unit_of(scene: bpy.types.Scene, length: float) -> tuple[str, float]:

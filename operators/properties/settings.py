@@ -7,6 +7,7 @@ from dataclasses import Field, fields
 from typing import Any
 
 import bpy
+from bpy.app.translations import pgettext_n as n_
 
 from ...core.settings import DEFAULT_PRESET, PRESETS, DenoiseSettings, SettingInfo
 from .output_choices import IN_PLACE, MODIFIER, NEW_OBJECT, OUTPUTS, SHAPE_KEY
@@ -16,7 +17,16 @@ from .setting_values import CUSTOM, DEFINING, FRAME_NAMES, follow_preset, leave_
 FIELDS = {item.name: item for item in fields(DenoiseSettings)}
 """The settings by name."""
 
+CONTEXT = "Framelet"
+"""The context of words that mean something else in Blender."""
+
+OWN_WORDS = ("boundary", "frame")
+"""Settings whose names Blender's dictionaries take for a sound's end and a picture of a film."""
+
 _DEFAULTS = PRESETS[DEFAULT_PRESET].settings
+
+FIRST_OF_RESEARCH = "POSITIONS"
+"""The presets before it are by what the mesh is."""
 
 _NUMBERED = {
     "preset": (
@@ -51,10 +61,13 @@ def _preset_property() -> Any:
     """Return the property that names a preset."""
     items = [(identifier, preset.label, preset.description) for identifier, preset in PRESETS.items()]
     items.append((CUSTOM, "Custom", "Your own combination"))
+    numbered: list[tuple[Any, ...]] = list(_items("preset", items))
+    research = next(place for place, item in enumerate(numbered) if item[0] == FIRST_OF_RESEARCH)
+    numbered.insert(research, ("", n_("Research"), "", -1))  # a heading
     return bpy.props.EnumProperty(
         name="Preset",
         description="What the mesh is or which algorithm to use; choosing one sets all values below",
-        items=_items("preset", items),
+        items=numbered,
         default=DEFAULT_PRESET,
         options=set(),
         update=follow_preset,
@@ -70,6 +83,8 @@ def setting_property(item: Field, **options: Any) -> Any:
         "default": getattr(_DEFAULTS, item.name),
         "options": set(),
     } | options
+    if item.name in OWN_WORDS:
+        common["translation_context"] = CONTEXT
     if info.choices:
         return bpy.props.EnumProperty(items=_items(item.name, info.choices), **common)
     common |= {"min": info.minimum, "max": info.maximum}

@@ -48,11 +48,12 @@ def read_job(
     Parameters
     ----------
     obj : bpy.types.Object
-        A mesh object in Object Mode or Edit Mode.
+        A mesh object in one of `mesh_bridge.MODES`.
     settings : DenoiseSettings
         What will be done.
     output : str
-        One of `output_choices.OUTPUTS`.
+        One of `output_choices.OUTPUTS`; in Sculpt Mode a modifier would not be seen, so that the mesh is
+        changed in place.
     options : RegionOptions, optional
         What limits the run; by default selection and hidden vertices alone.
     amount : float
@@ -65,6 +66,8 @@ def read_job(
     ValueError
         With a sentence that names the object, if it cannot be edited or nothing may move.
     """
+    if obj.mode == "SCULPT" and output == MODIFIER:
+        output = IN_PLACE  # Blender shows no modifier of this kind there, and brushes change the mesh itself
     reason = refusal(obj, output)
     if reason is not None:
         raise ValueError(reason)

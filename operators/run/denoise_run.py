@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import traceback
 from enum import Enum
+from time import monotonic
 from typing import TYPE_CHECKING, NamedTuple
 
 from bpy.app.translations import pgettext_iface as iface_
@@ -29,6 +30,9 @@ if TYPE_CHECKING:
 
     from ...core.settings import DenoiseSettings
     from ..properties.region_options import RegionOptions
+
+LEAST_SHARE, LEAST_SECONDS = 0.05, 2.0
+"""Share of the work, and time, from which on the pace says how long the rest takes."""
 
 UNCHANGED = "nothing was changed"
 
@@ -76,6 +80,7 @@ class DenoiseRun:
         self._at = 0
         self._is_together = is_together
         self._is_touched = self._is_started = False
+        self._began: float | None = None
         self._progress: Callable[[float], None] | None = None
         self._worker: Worker[list[DenoiseOutcome | str]] = Worker(self._compute)
 
@@ -83,6 +88,14 @@ class DenoiseRun:
     def fraction(self) -> float:
         """Share of the work that is done, from 0 to 1."""
         return self._worker.fraction
+
+    @property
+    def seconds_left(self) -> float | None:
+        """How long the rest takes at the pace so far; None while that is a guess, or nothing is left."""
+        if self._began is None or not LEAST_SHARE <= self.fraction < 1.0:
+            return None
+        passed = monotonic() - self._began
+        return None if passed < LEAST_SECONDS else passed * (1.0 - self.fraction) / self.fraction
 
     @property
     def is_active(self) -> bool:
@@ -103,6 +116,7 @@ class DenoiseRun:
     def start(self) -> None:
         """Begin to compute on a thread."""
         self.state = State.RUNNING
+        self._began = monotonic()
         self._worker.start()
         self._is_started = True
 

@@ -48,7 +48,25 @@ def progress_text(run: DenoiseRun) -> str:
     """Say what a run does and how far it is."""
     if run.fraction == 0.0:
         return iface_("{what}: preparing").format(what=run.text)
-    return f"{run.text}: {run.fraction:.0%}"
+    text = f"{run.text}: {run.fraction:.0%}"
+    left = run.seconds_left
+    return (
+        text
+        if left is None
+        else iface_("{progress}, {time} left").format(progress=text, time=time_text(left))
+    )
+
+
+def time_text(seconds: float) -> str:
+    """Return a time in words, no more exact than people need it.
+
+    Examples
+    --------
+    >>> time_text(0.2), time_text(41.7), time_text(130.0)
+    ('1 s', '42 s', '2 min')
+    """
+    seconds = max(1.0, seconds)
+    return f"{seconds:.0f} s" if seconds < 90.0 else f"{seconds / 60.0:.0f} min"
 
 
 def status_text(run: DenoiseRun) -> str:

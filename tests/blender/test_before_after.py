@@ -196,8 +196,7 @@ def test_poll_says_why_not(torus):
         bpy.ops.object.framelet_before_after()
     torus.select_set(True)
     bpy.ops.object.mode_set(mode="SCULPT")
-    with pytest.raises(RuntimeError, match="Switch to Object Mode, or to Edit Mode"):
-        bpy.ops.object.framelet_before_after()
+    assert bpy.ops.object.framelet_before_after.poll()
 
 
 def test_opening_a_file_forgets(torus):

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A run on a thread: same bits as without, nothing written unless all is well, and no thread stays."""
 
+import re
+
 import bpy
 import numpy as np
 import pytest
@@ -204,3 +206,20 @@ def test_the_cache_serves_runs_on_threads(monkeypatch):
         if lambda_ == 0.1:
             first = kept[0]
     assert kept[0] is first
+
+
+def test_the_time_that_is_left_stands_beside_the_percent_once_it_is_known(gate, monkeypatch):
+    run = start(noisy_monkey("A"))
+    began = denoise_run.monotonic()
+    monkeypatch.setattr(denoise_run, "monotonic", lambda: began + 10.0)
+    assert run.seconds_left is None  # nothing is done yet
+    run._worker.fraction = 0.2
+    assert run.seconds_left == pytest.approx(40.0, abs=1.0)
+    assert re.fullmatch(r"Denoising ‘A’: 20%, (39|40|41) s left", progress_text(run))
+    run._worker.fraction = 1.0
+    assert progress_text(run) == "Denoising ‘A’: 100%"
+    monkeypatch.setattr(denoise_run, "monotonic", lambda: began + 1.0)
+    run._worker.fraction = 0.2
+    assert progress_text(run) == "Denoising ‘A’: 20%"
+    gate.set()
+    until_done(run)

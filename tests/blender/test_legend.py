@@ -207,12 +207,12 @@ def test_all_labels_have_one_unit_and_are_true(system, scale, limit):
     assert [label.startswith("−") for label in labels] == [True, True, False, False, False]
     numbers = [float(number) for number in numbers]
     assert numbers[2] == 0 and numbers[0] == numbers[4] and numbers[1] == numbers[3]
-    assert numbers[3] == pytest.approx(numbers[4] / 2, rel=1e-3)
+    assert numbers[3] == pytest.approx(numbers[4] / 2, rel=1e-2)
     if suffixes[0]:
         back = bpy.utils.units.to_value(system, "LENGTH", f"{numbers[4]}{suffixes[0]}") / units.scale_length
-        assert back == pytest.approx(limit, rel=1e-3)
+        assert back == pytest.approx(limit, rel=1e-2)
     else:
-        assert numbers[4] == pytest.approx(limit, rel=1e-3)
+        assert numbers[4] == pytest.approx(limit, rel=1e-2)
 
 
 def test_angles_are_in_degrees(torus):
@@ -220,7 +220,7 @@ def test_angles_are_in_degrees(torus):
     title, labels, note = texts()
     highest = bpy.context.window_manager.framelet_band_range.maximum
     assert title == "Angle change of faces"
-    assert labels == ["0°", f"{highest / 2:.4g}°", f"{highest:.4g}°"]
+    assert labels == ["0°", f"{highest / 2:.3g}°", f"{highest:.3g}°"]
     assert note == ""
 
 

@@ -190,5 +190,7 @@ def test_refuses_no_faces_in_edit_mode():
 
 def test_refuses_other_modes():
     obj = sphere()
-    bpy.ops.object.mode_set(mode="WEIGHT_PAINT")
+    obj.modifiers.new("Hair", "PARTICLE_SYSTEM")
+    bpy.ops.object.mode_set(mode="PARTICLE_EDIT")
+    assert obj.mode == "PARTICLE_EDIT"
     assert "another mode" in mesh_bridge.refusal(obj)

@@ -8,8 +8,10 @@ import bpy
 import framelet.ui
 import pytest
 from drawing import draw
+from framelet.core.learned.scales import N_SCALES
 from framelet.core.settings import PRESETS
 from framelet.operators.properties import setting_values
+from framelet.operators.properties.scene_units import range_text
 from framelet.ui.panels import panel, region_panel, report_panels
 from framelet.ui.panels.layouts import FrameletPanel
 
@@ -31,6 +33,7 @@ def test_every_setting_of_a_method_is_shown_once(preset):
     method = PRESETS[preset].settings.method
     shown = draw(panel.VIEW3D_PT_framelet)["prop"] + draw(panel.VIEW3D_PT_framelet_advanced)["prop"]
     region = draw(region_panel.VIEW3D_PT_framelet_region)["prop"]
+    region += draw(region_panel.VIEW3D_PT_framelet_mask)["prop"]
     shown += [name for name in region if name in setting_values.SETTING_NAMES]
     expected = [name for name in setting_values.PROPERTY_NAMES if setting_values.has_effect(method, name)]
     assert sorted(shown) == sorted([*expected, "amount"])
@@ -101,10 +104,41 @@ def table(labels):
     return dict(zip(labels[::2], labels[1::2], strict=True))
 
 
+ROWS = ["Frame", "Levels", "Smoothing λ", "Penalty μ"]
+
+
+def test_automatic_has_a_gray_row_for_each_parameter_of_the_paper():
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=4)
+    record = draw(panel.VIEW3D_PT_framelet)
+    rows = table(record["label"])
+    assert list(rows) == ROWS and set(record["label"]) <= set(record["grayed"])
+    assert rows["Levels"] == str(N_SCALES) and rows["Smoothing λ"] == "By the noise at each place"
+    bpy.ops.object.framelet_denoise()
+    assert table(draw(panel.VIEW3D_PT_framelet)["label"])["Smoothing λ"] == "Clean already"
+    bpy.ops.object.framelet_add_noise(sigma=0.2)
+    bpy.ops.object.framelet_denoise()
+    words = table(draw(panel.VIEW3D_PT_framelet)["label"])["Smoothing λ"]
+    report = bpy.context.window_manager.framelet_report
+    assert words == f"{range_text(report.sigma_low_edges, report.sigma_high_edges)} edges"
+
+
+def test_subpanels_stand_in_the_order_of_work():
+    panels = [each for each in framelet.ui.classes if issubclass(each, FrameletPanel)]
+    main = [each.bl_label for each in panels if getattr(each, "bl_parent_id", "") == "VIEW3D_PT_framelet"]
+    assert main[:5] == ["Output", "Mask", "Constraints", "Result", "Bands"]
+    assert [
+        each.bl_label for each in panels if getattr(each, "bl_parent_id", "") == "VIEW3D_PT_framelet_see"
+    ] == [
+        "Last Run",
+        "Noise",
+    ]
+
+
 def test_the_automatic_panel_is_calm():
     for _ in range(2):
         shown = draw(panel.VIEW3D_PT_framelet)
-        assert shown["prop"] == ["preset", "method", "strength", "noise", "amount"] and shown["label"] == []
+        assert shown["prop"] == ["preset", "method", "strength", "noise", "amount"]
+        assert list(table(shown["label"])) == ROWS
         assert draw(panel.VIEW3D_PT_framelet_advanced)["prop"] == ["passes", "threads"]
         bpy.ops.mesh.primitive_cube_add()
         bpy.ops.object.framelet_denoise()

@@ -11,7 +11,6 @@ from framelet.operators.preview import current_preview
 from framelet.operators.run import current_run, run_memory
 
 OBJECT = "Switch to Object Mode"
-OBJECT_OR_EDIT = "Switch to Object Mode, or to Edit Mode of a mesh"
 SELECT = "Select at least one mesh object"
 ACTIVE = "The active object must be a mesh"
 FIRST = "Denoise a selected mesh first"
@@ -23,20 +22,23 @@ NO_MODIFIER = "The selected meshes have no modifier of Framelet"
 # What each operator says of an empty scene, of a camera, of a mesh, of a mesh in Sculpt Mode, and of one in
 # Edit Mode; None where it can be used.
 REASONS = {
-    "denoise": (SELECT, SELECT, None, OBJECT_OR_EDIT, None),
-    "estimate_noise": (SELECT, SELECT, None, OBJECT_OR_EDIT, None),
-    "add_noise": (SELECT, SELECT, None, OBJECT_OR_EDIT, None),
-    "equalize": (SELECT, SELECT, None, OBJECT_OR_EDIT, None),
+    "denoise": (SELECT, SELECT, None, None, None),
+    "estimate_noise": (SELECT, SELECT, None, None, None),
+    "add_noise": (SELECT, SELECT, None, None, None),
+    "select_spikes": (SELECT, SELECT, None, None, None),
+    "flatten_spikes": (SELECT, SELECT, None, None, None),
+    "select_islands": (SELECT, SELECT, None, None, None),
+    "equalize": (SELECT, SELECT, None, None, None),
     "live_equalizer": (SELECT, SELECT, None, OBJECT, OBJECT),
-    "apply_modifier": (SELECT, SELECT, NO_MODIFIER, OBJECT_OR_EDIT, NO_MODIFIER),
-    "remove_modifier": (SELECT, SELECT, NO_MODIFIER, OBJECT_OR_EDIT, NO_MODIFIER),
+    "apply_modifier": (SELECT, SELECT, NO_MODIFIER, NO_MODIFIER, NO_MODIFIER),
+    "remove_modifier": (SELECT, SELECT, NO_MODIFIER, NO_MODIFIER, NO_MODIFIER),
     "sculpt_mask": (SELECT, SELECT, NO_MODIFIER, OBJECT, OBJECT),
     "compare": (ACTIVE, ACTIVE, None, None, None),
     "analyze": (SELECT, SELECT, None, OBJECT, OBJECT),
     "show_band": (SELECT, SELECT, BANDS, OBJECT, OBJECT),
     "synthesize": (SELECT, SELECT, BANDS, OBJECT, OBJECT),
     "clear": (SELECT, SELECT, "The selected meshes have nothing to remove", OBJECT, OBJECT),
-    "before_after": (SELECT, SELECT, FIRST, OBJECT_OR_EDIT, FIRST),
+    "before_after": (SELECT, SELECT, FIRST, FIRST, FIRST),
     "heat_map": (SELECT, SELECT, FIRST, OBJECT, OBJECT),
     "hide_colors": (SELECT, SELECT, "The selected meshes have no colors of Framelet", OBJECT, OBJECT),
     "preview": ("Make a mesh object active", "Make a mesh object active", None, OBJECT, OBJECT),

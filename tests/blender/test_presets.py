@@ -11,6 +11,9 @@ from framelet.core.settings import PRESETS
 from framelet.operators.properties import presets, setting_values
 from framelet.ui.panels import panel, preset_panel
 
+MESHES = ["AUTO", "FREE_FORM", "PRISMATIC", "MARCHING_CUBES", "SCULPT"]
+"""Presets by what the mesh is."""
+
 
 @pytest.fixture
 def preset_folder(tmp_path, monkeypatch):
@@ -93,11 +96,14 @@ def test_all_settings_but_the_threads_are_saved():
         assert name in scene_settings().bl_rna.properties
 
 
-def test_the_list_shows_every_built_in_preset_and_what_it_is_for():
-    record = draw(lambda drawn, context: preset_panel.draw_built_in(drawn.layout, context.scene.framelet))
-    assert record["prop_enum"] == [("preset", identifier) for identifier in PRESETS]
-    for item in scene_settings().bl_rna.properties["preset"].enum_items:
-        assert (item.name and len(item.description) > 20) or item.identifier == setting_values.CUSTOM
+def test_there_is_one_list_of_built_in_presets_with_the_paper_under_research():
+    items = bpy.context.scene.framelet.bl_rna.properties["preset"].enum_items_static_ui
+    listed = [(item.identifier, item.name) for item in items]
+    research = listed.index(("", "Research"))
+    assert [identifier for identifier, _ in listed if identifier] == [*PRESETS, "CUSTOM"]
+    assert [identifier for identifier, _ in listed[:research]] == MESHES
+    popover = bpy.types.VIEW3D_PT_framelet_presets
+    assert not hasattr(preset_panel, "draw_built_in") and popover.preset_subdir == "framelet"
 
 
 def test_the_first_preset_can_be_saved():

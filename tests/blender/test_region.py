@@ -14,11 +14,12 @@ import bmesh
 from blender_objects import edit, read
 from checks import assert_same_bits, lengths
 from framelet.core import PRESETS, Region, denoise
+from framelet.core.mesh.borders import border_vertices
 from framelet.operators.mesh_io import mesh_bridge
 from framelet.operators.properties.region_options import RegionOptions
 from framelet.operators.properties.region_values import REGION_NAMES, shown_region_names, to_region_options
 from framelet.operators.run.denoise_object import denoise_object
-from meshes import noisy, triangle_torus
+from meshes import noisy, triangle_grid, triangle_torus
 from region_cases import exploded
 
 QUICK = PRESETS["TRI_2"].settings
@@ -142,7 +143,7 @@ def test_hidden_vertices_can_be_denoised_too(torus, rng):
 
 def test_all_hidden_is_said(torus):
     set_hidden(torus, np.ones(len(torus.data.vertices), bool))
-    assert "All vertices of ‘Mesh’ are hidden; reveal some in Edit Mode" in refused()
+    assert "All vertices of ‘Mesh’ are hidden; reveal some" in refused()
 
 
 def test_hidden_vertices_are_left_alone_in_edit_mode(torus, rng):
@@ -267,3 +268,14 @@ def test_shape_keys_and_regions_go_together(torus):
     key.points.foreach_get("co", after.reshape(-1))
     assert_same_bits(after[90:], before[90:])
     assert (after[:90] != before[:90]).any(axis=1).mean() > 0.9
+
+
+def test_a_frayed_border_is_straightened_on_request(make_object, rng):
+    size = 24
+    points = np.stack((*np.divmod(np.arange(size**2), size), np.zeros(size**2)), axis=1).astype(float)
+    grid = triangle_grid(size, size).with_vertices(points)
+    border = border_vertices(grid)
+    points[border, 2] += 0.4 * rng.standard_normal(border.sum())
+    obj = make_object(grid.with_vertices(points))
+    run(straighten_borders=True)
+    assert np.abs(mesh_bridge.read_surface(obj).vertices[border, 2]).std() < 0.2

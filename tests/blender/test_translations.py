@@ -7,6 +7,7 @@ from string import Formatter
 import bpy
 import pytest
 import translatable
+from framelet.operators.properties.settings import CONTEXT, OWN_WORDS
 from framelet.ui import translations
 
 LANGUAGES = list(translations.TRANSLATIONS)
@@ -20,8 +21,8 @@ def test_the_search_for_texts_finds_them():
         ("*", "Engine"),
         ("*", "Select at least one mesh object"),
         ("*", "Showing {names} before denoising"),
-        ("*", "Box Spline"),
-        ("*", "See It"),
+        (CONTEXT, "Box Spline"),
+        ("*", "Result"),
         ("*", "Smoothing λ"),
         ("*", "Open mesh"),
         ("*", "{:.3f} edge lengths"),
@@ -44,7 +45,11 @@ def test_entries_are_what_blender_wants():
     for language, entries in translations.TRANSLATIONS.items():
         assert language.islower() and len(language) == 2
         for (context, text), translated in entries.items():
-            assert context in {"*", "Operator"} and isinstance(text, str) and isinstance(translated, str)
+            assert (
+                context in {"*", "Operator", CONTEXT}
+                and isinstance(text, str)
+                and isinstance(translated, str)
+            )
 
 
 @pytest.mark.skipif(
@@ -62,3 +67,14 @@ def test_blender_looks_the_texts_up():
         assert bpy.app.translations.pgettext_iface("Denoise", "Operator") == "Entrauschen"
     finally:
         preferences.language = before
+
+
+def test_words_that_mean_something_else_in_blender_have_a_context_of_their_own():
+    entries = translations.TRANSLATIONS["de"]
+    for owner in (bpy.context.scene.framelet.bl_rna, bpy.ops.object.framelet_denoise.get_rna_type()):
+        for name in OWN_WORDS:
+            prop = owner.properties[name]
+            assert prop.translation_context == CONTEXT
+            for text in (prop.name, *(item.name for item in prop.enum_items)):
+                assert (CONTEXT, text) in entries, text
+    assert entries[CONTEXT, "Boundary"] == "Rand"

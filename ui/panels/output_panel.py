@@ -31,7 +31,9 @@ class VIEW3D_PT_framelet_output(FrameletPanel, bpy.types.Panel):
         settings = context.scene.framelet
         column = settings_column(self.layout)
         column.prop(settings, "output")
-        if settings.output in _HINTS:
+        if context.mode == "SCULPT" and settings.output == MODIFIER:
+            column.label(text="In Sculpt Mode: in place", icon="INFO")
+        elif settings.output in _HINTS:
             column.label(text=_HINTS[settings.output], icon="INFO")
             if context.mode != "OBJECT" and settings.output != MODIFIER:
                 column.label(text="Needs Object Mode", icon="ERROR")

@@ -8,12 +8,14 @@ It draws and never computes.
 from __future__ import annotations
 
 import bpy
+from bpy.app.translations import pgettext_iface as iface_
 from bpy.app.translations import pgettext_n as n_
 
 from ...operators.denoise import OBJECT_OT_framelet_denoise
 from ...operators.mesh_io import mesh_facts
 from ...operators.modifier.recipes import DISPLACEMENT
 from ...operators.modifier.stack import find_modifier
+from ...operators.properties.scene_units import range_text
 from ...operators.properties.setting_values import copy_settings, has_effect, is_replaced, write_quietly
 from ...operators.run.run_memory import known_side
 from .layouts import FrameletPanel, draw_settings, draw_value, settings_column
@@ -44,6 +46,9 @@ CHOSEN = ((n_("Smoothing λ"), "chosen_lambda"), (n_("Penalty μ"), "chosen_mu")
 
 UNKNOWN = "–"
 
+N_SCALES = 4
+"""Scales of the net; `core.learned`, which needs NumPy, is not loaded to draw."""
+
 
 class VIEW3D_PT_framelet(FrameletPanel, bpy.types.Panel):
     """Choose how to clean, and denoise the selected meshes."""
@@ -66,6 +71,9 @@ class VIEW3D_PT_framelet(FrameletPanel, bpy.types.Panel):
             if has_effect(settings.method, name):
                 column.prop(settings, name)
         draw_amount(column, settings, context.active_object)
+        if settings.method == "AUTO":
+            _draw_learned(layout, context)
+            return
         layout.separator()
         draw_settings(layout, settings, MAIN_NAMES, context.active_object)
         if is_replaced(settings.method, settings.tuning, "lambda_"):
@@ -101,6 +109,32 @@ def _draw_buttons(layout: bpy.types.UILayout, context: bpy.types.Context) -> Non
         operator = row.operator(OBJECT_OT_framelet_denoise.bl_idname, text="", icon="FORWARD")
         copy_settings(settings, operator)
         write_quietly(operator, "from_original", False)
+
+
+def _draw_learned(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
+    """Draw, grayed, what stands for the paper's parameters with Automatic, a row each.
+
+    Its frame is on the normals of faces, has the scales of the net, and shrinks by what it takes for noise at
+    each place; vertices are fitted in one step, without a penalty.
+    """
+    obj = context.active_object
+    entry = obj and context.window_manager.framelet_estimate.objects.get(obj.name)
+    column = layout.column(align=True)
+    column.active = False
+    draw_value(column, iface_("Frame", "Framelet"), n_("Learned, on face normals"))
+    draw_value(column, n_("Levels"), str(N_SCALES))
+    draw_value(column, n_("Smoothing λ"), _noise_words(entry))
+    draw_value(column, n_("Penalty μ"), n_("None, fitted at once"))
+
+
+def _noise_words(entry: bpy.types.PropertyGroup | None) -> str:
+    """Say in one line what a run took for noise on an object, and removed."""
+    if not entry or not entry.is_denoised or not entry.has_belief:
+        return n_("By the noise at each place")
+    if entry.is_off or entry.is_clean:
+        return n_("Strength is 0") if entry.is_off else n_("Clean already")
+    edges = range_text(entry.sigma_low_edges, entry.sigma_high_edges)
+    return iface_("{range} edges").format(range=edges)
 
 
 def _draw_chosen(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:

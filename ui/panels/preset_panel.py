@@ -1,19 +1,18 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The list of presets behind the button in the header of the tab."""
+"""The list of the user's presets behind the button in the header of the tab; Preset lists those built in."""
 
 from __future__ import annotations
 
 import bpy
 from bl_ui.utils import PresetPanel
 
-from ...core.settings import PRESETS
 from ...operators.properties.presets import PRESET_FOLDER, OBJECT_OT_framelet_preset_add
 from ...operators.properties.setting_values import write_quietly
 
 
 class VIEW3D_PT_framelet_presets(PresetPanel, bpy.types.Panel):
-    """The presets of Framelet, then those of the user."""
+    """The presets of the user."""
 
     bl_label = "Framelet Presets"
     bl_space_type = "VIEW_3D"
@@ -23,20 +22,11 @@ class VIEW3D_PT_framelet_presets(PresetPanel, bpy.types.Panel):
     preset_add_operator = OBJECT_OT_framelet_preset_add.bl_idname
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw the built-in presets, whose tooltips say what they are for, and the list of the user's."""
-        draw_built_in(self.layout, context.scene.framelet)
-        self.layout.separator()
+        """Draw the list of the user's presets."""
         if bpy.utils.preset_paths(PRESET_FOLDER):
             super().draw(context)
         else:
             draw_add(self.layout, context)
-
-
-def draw_built_in(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:
-    """Draw the presets that come with Framelet, the present one pressed."""
-    column = layout.column(align=True)
-    for identifier in PRESETS:
-        column.prop_enum(settings, "preset", identifier)
 
 
 def draw_add(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:

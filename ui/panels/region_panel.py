@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The subpanel Region: where vertices may move, how far, and what is mended."""
+"""The subpanels Mask, where vertices may move, and Constraints, how far and what is mended."""
 
 from __future__ import annotations
 
@@ -11,10 +11,26 @@ from bpy.app.translations import pgettext_n as n_
 from .layouts import FrameletPanel, draw_value, settings_column
 
 
-class VIEW3D_PT_framelet_region(FrameletPanel, bpy.types.Panel):
-    """Where vertices may move and how far."""
+class VIEW3D_PT_framelet_mask(FrameletPanel, bpy.types.Panel):
+    """Where vertices may move."""
 
-    bl_label = "Region"
+    bl_label = "Mask"
+    bl_parent_id = "VIEW3D_PT_framelet"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the vertex group, and what else holds vertices."""
+        settings = context.scene.framelet
+        column = settings_column(self.layout)
+        _draw_group(column, settings, context.active_object)
+        column.prop(settings, "keep_mask")
+        column.prop(settings, "keep_hidden")
+
+
+class VIEW3D_PT_framelet_region(FrameletPanel, bpy.types.Panel):
+    """How far vertices may move, and what is mended."""
+
+    bl_label = "Constraints"
     bl_parent_id = "VIEW3D_PT_framelet"
     bl_options = {"DEFAULT_CLOSED"}
 
@@ -22,10 +38,10 @@ class VIEW3D_PT_framelet_region(FrameletPanel, bpy.types.Panel):
         """Draw the options; those without effect as the others are stay away or are gray."""
         settings = context.scene.framelet
         column = settings_column(self.layout)
-        _draw_group(column, settings, context.active_object)
-        column.prop(settings, "keep_hidden")
         column.prop(settings, "keep_sharp")
         column.prop(settings, "boundary")
+        if settings.boundary != "FIXED":
+            column.prop(settings, "straighten_borders")
         column.separator()
         column.prop(settings, "limit")
         if settings.limit != "NONE":
@@ -73,4 +89,4 @@ def _draw_group(
         column.label(text=iface_("‘{name}’ has no such group").format(name=obj.name), icon="ERROR")
 
 
-classes = (VIEW3D_PT_framelet_region,)
+classes = (VIEW3D_PT_framelet_mask, VIEW3D_PT_framelet_region)

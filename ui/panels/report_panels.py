@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The subpanels with measurements: Last Run, Noise and Try It. They draw and never compute."""
+"""The subpanels with measurements: Last Run, Noise and Sample Data. They draw and never compute."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class VIEW3D_PT_framelet_last_run(FrameletPanel, bpy.types.Panel):
     """What the last run did."""
 
     bl_label = "Last Run"
-    bl_parent_id = "VIEW3D_PT_framelet"
+    bl_parent_id = "VIEW3D_PT_framelet_see"
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: bpy.types.Context) -> None:
@@ -81,7 +81,7 @@ class VIEW3D_PT_framelet_noise(FrameletPanel, bpy.types.Panel):
     """How noisy the active mesh is."""
 
     bl_label = "Noise"
-    bl_parent_id = "VIEW3D_PT_framelet"
+    bl_parent_id = "VIEW3D_PT_framelet_see"
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: bpy.types.Context) -> None:
@@ -104,7 +104,7 @@ class VIEW3D_PT_framelet_noise(FrameletPanel, bpy.types.Panel):
 class VIEW3D_PT_framelet_try_it(FrameletPanel, bpy.types.Panel):
     """Make noise, and measure what denoising left of it."""
 
-    bl_label = "Try It"
+    bl_label = "Sample Data"
     bl_parent_id = "VIEW3D_PT_framelet"
     bl_options = {"DEFAULT_CLOSED"}
 
@@ -126,4 +126,7 @@ class VIEW3D_PT_framelet_try_it(FrameletPanel, bpy.types.Panel):
         draw_value(column, "Flipped Faces", f"{comparison.flipped_faces:,}")
 
 
-classes = (VIEW3D_PT_framelet_last_run, VIEW3D_PT_framelet_noise, VIEW3D_PT_framelet_try_it)
+classes = (VIEW3D_PT_framelet_last_run, VIEW3D_PT_framelet_noise)
+"""Those within Result."""
+
+sample_classes = (VIEW3D_PT_framelet_try_it,)

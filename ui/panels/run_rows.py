@@ -28,10 +28,18 @@ def draw_preview(layout: bpy.types.UILayout) -> None:
     """Draw the toggle of the preview and, while it is on, the button that keeps it."""
     session = current_preview()
     row = layout.row(align=True)
-    row.operator(OBJECT_OT_framelet_preview.bl_idname, icon="HIDE_OFF", depress=session is not None)
-    if session is not None:
+    if session is None:
+        row.operator(OBJECT_OT_framelet_preview.bl_idname, icon="HIDE_OFF")
+    else:
+        # The name says whose preview it is, as another object may be active; the icon is all that changes.
+        is_busy = not session.is_current and not session.message
+        row.operator(
+            OBJECT_OT_framelet_preview.bl_idname,
+            text=iface_("Preview of {name}").format(name=f"‘{session.name}’"),
+            translate=False,
+            icon="SORTTIME" if is_busy else "HIDE_OFF",
+            depress=True,
+        )
         row.operator(OBJECT_OT_framelet_apply_preview.bl_idname, icon="CHECKMARK")
-        if not session.is_current and not session.message:
-            layout.label(text=iface_("Computing {name}").format(name=f"‘{session.name}’"), icon="SORTTIME")
     if preview_message():
         layout.label(text=preview_message(), translate=False, icon="INFO")

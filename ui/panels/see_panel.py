@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The subpanel See It: what the last run changed. It draws and never computes."""
+"""The subpanel Result: what the last run changed. It draws and never computes."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ BUTTONS = (
 class VIEW3D_PT_framelet_see(FrameletPanel, bpy.types.Panel):
     """Look at what the last run changed."""
 
-    bl_label = "See It"
+    bl_label = "Result"
     bl_parent_id = "VIEW3D_PT_framelet"
     bl_options = {"DEFAULT_CLOSED"}
 

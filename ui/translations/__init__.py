@@ -8,6 +8,8 @@ everything else. A text without an entry is shown in English; `make translations
 
 import bpy
 
+from ...core.settings.choices import BOUNDARIES, FRAMES
+from ...operators.properties.settings import CONTEXT
 from . import (
     german_bands,
     german_modifier,
@@ -16,6 +18,9 @@ from . import (
     german_reports,
     german_settings,
 )
+
+OWN_WORDS = ("Boundary", "Frame", *(choice.label for choice in (*BOUNDARIES, *FRAMES)))
+"""Words whose meaning here Blender's own dictionaries do not know: the properties with `CONTEXT`."""
 
 _GERMAN = (
     german_operators,
@@ -33,6 +38,12 @@ TRANSLATIONS = {
             ("Operator", text): german
             for module in (german_operators, german_modifier)
             for text, german in module.NAMES.items()
+        },
+        **{
+            (CONTEXT, text): module.TEXTS[text]
+            for module in _GERMAN
+            for text in OWN_WORDS
+            if text in module.TEXTS
         },
         **{("*", text): german for module in _GERMAN for text, german in module.TEXTS.items()},
     }

@@ -123,7 +123,7 @@ TEXTS = {
         "Der Winkel mit der letzten Farbe: größer macht alle Farben blasser"
     ),
     # Heat map
-    "See It": "Ansehen",
+    "Result": "Ergebnis",
     "Displacement along Normals": "Verschiebung entlang der Normalen",
     "Displacement along normals": "Verschiebung entlang der Normalen",
     "How far each vertex moved along the normal of the result: red outwards, blue inwards": (

@@ -85,8 +85,8 @@ TEXTS = {
     ),
     # Why a button is gray
     "Switch to Object Mode": "In den Objektmodus wechseln",
-    "Switch to Object Mode, or to Edit Mode of a mesh": (
-        "In den Objektmodus oder in den Bearbeitungsmodus eines Netzes wechseln"
+    "Switch to Object Mode, or to Edit Mode or Sculpt Mode of a mesh": (
+        "In den Objektmodus, Bearbeitungsmodus oder Skulpturmodus eines Netzes wechseln"
     ),
     "Select at least one mesh object": "Mindestens ein Netz auswählen",
     "Analyze a selected mesh first: none has stored bands": (

@@ -4,7 +4,7 @@
 
 TEXTS = {
     # Region
-    "Region": "Bereich",
+    "Constraints": "Einschränkungen",
     "Vertices move by their weight in the group of this name: larger weights move farther, vertices with weight 0 or outside of the group stay; empty moves all": (
         "Punkte bewegen sich nach ihrem Gewicht in der Gruppe dieses Namens: größere Gewichte bewegen sich weiter, Punkte mit Gewicht 0 oder außerhalb bleiben; leer bewegt alle"
     ),
@@ -12,9 +12,45 @@ TEXTS = {
         "Punkte bewegen sich um eins minus ihr Gewicht: größere Gewichte bewegen sich weniger"
     ),
     "Leave Hidden Alone": "Verborgenes lassen",
-    "Hidden vertices stay where they are, in Object Mode too": (
-        "Verborgene Punkte bleiben, wo sie sind, auch im Objektmodus"
+    "Hidden vertices and those of hidden faces stay where they are, in Object Mode too": (
+        "Verborgene Punkte und die verborgener Flächen bleiben, wo sie sind, auch im Objektmodus"
     ),
+    "Spikes and Islands": "Ausreißer und Inseln",
+    "Select Spikes": "Ausreißer auswählen",
+    "Flatten Spikes": "Ausreißer einebnen",
+    "Select Small Islands": "Kleine Inseln auswählen",
+    "Select single vertices and small clusters that are far off their surroundings, in Edit Mode": (
+        "Einzelne Punkte und kleine Gruppen auswählen, die weit von ihrer Umgebung entfernt sind, im Bearbeitungsmodus"
+    ),
+    "Bring spikes down to the surface around them; in Edit Mode the selected ones": (
+        "Ausreißer auf die Fläche um sie herum bringen; im Bearbeitungsmodus die ausgewählten"
+    ),
+    "Select small loose parts in Edit Mode, so that they can be deleted; the largest part is never one": (
+        "Kleine lose Teile im Bearbeitungsmodus auswählen, damit sie gelöscht werden können; das größte Teil ist nie darunter"
+    ),
+    "Least factor from the edges around a spike to its own: larger finds fewer spikes": (
+        "Kleinster Faktor von den Kanten um einen Ausreißer zu seinen eigenen: größer findet weniger"
+    ),
+    "How many vertices a spike has at most: larger finds wider ones": (
+        "Wie viele Punkte ein Ausreißer höchstens hat: größer findet breitere"
+    ),
+    "How many vertices an island has at most: larger selects larger ones": (
+        "Wie viele Punkte eine Insel höchstens hat: größer wählt größere aus"
+    ),
+    "Selected {number:,} vertices of spikes of {names}": "{number:,} Punkte von Ausreißern von {names} ausgewählt",
+    "Flattened {number:,} vertices of spikes of {names}": "{number:,} Punkte von Ausreißern von {names} eingeebnet",
+    "Selected {number:,} vertices of small islands of {names}": (
+        "{number:,} Punkte kleiner Inseln von {names} ausgewählt"
+    ),
+    "Straighten Borders": "Ränder begradigen",
+    "Frayed and zigzag open borders become as smooth as the inside: each follows its own course, and corners stay corners": (
+        "Ausgefranste und gezackte offene Ränder werden so glatt wie das Innere: jeder folgt seinem Verlauf, und Ecken bleiben Ecken"
+    ),
+    "Sculpt Mask": "Skulpturmaske",
+    "Vertices move by one minus their sculpt mask, in Object Mode too: masked ones stay where they are": (
+        "Punkte bewegen sich um eins minus ihre Skulpturmaske, auch im Objektmodus: maskierte bleiben, wo sie sind"
+    ),
+    "In Sculpt Mode: in place": "Im Skulpturmodus: am Ort",
     "Keep Sharp Edges": "Scharfe Kanten behalten",
     "Edges that are marked sharp or creased stay sharp: their vertices are smoothed along the edges only, and stay where such edges end, meet or turn a corner": (
         "Kanten, die als scharf oder mit Falte markiert sind, bleiben scharf: ihre Punkte werden nur entlang der Kanten geglättet und bleiben, wo solche Kanten enden, sich treffen oder abknicken"
@@ -106,7 +142,8 @@ TEXTS = {
     "Make a mesh object active": "Ein Netz aktiv machen",
     "The live preview is off": "Die Vorschau ist aus",
     "The preview does not show these settings yet": "Die Vorschau zeigt diese Einstellungen noch nicht",
-    "Computing {name}": "{name} wird berechnet",
+    "Preview of {name}": "Vorschau von {name}",
+    "{progress}, {time} left": "{progress}, noch {time}",
     # A run that goes on
     "Framelet is not running": "Framelet läuft nicht",
     "Framelet is running; press Esc in the 3D View to cancel": "Framelet läuft; Esc in der 3D-Ansicht bricht ab",
@@ -117,9 +154,7 @@ TEXTS = {
     "{progress}   |   Esc or Right Click in the View: Cancel": (
         "{progress}   |   Esc oder Rechtsklick in der Ansicht: Abbrechen"
     ),
-    "Denoised {names}: {moved:,} of {total:,} vertices moved, {length} RMS ({edges:.3f} edge lengths), in {seconds:.2f} s": (
-        "{names} entrauscht: {moved:,} von {total:,} Punkten bewegt, {length} im Mittel ({edges:.3f} Kantenlängen), in {seconds:.2f} s"
-    ),
+    "Denoised {names} in {seconds:.1f} s": "{names} in {seconds:.1f} s entrauscht",
     "; noise {noise}": "; Rauschen {noise}",
     "; used {what}": "; verwendet: {what}",
     "‘{name}’ is far from the origin of its object, where positions come in steps of {edges:.2g} edge lengths; "
@@ -127,8 +162,11 @@ TEXTS = {
     "von {edges:.2g} Kantenlängen liegen; verschieben Sie zuerst die Punkte dorthin",
     "; clean already": "; schon sauber",
     "; Strength is 0": "; Stärke ist 0",
-    "; noise {lengths} ({edges} edge lengths)": "; Rauschen {lengths} ({edges} Kantenlängen)",
-    ", about {width:.1f} edges wide": ", etwa {width:.1f} Kanten breit",
-    ", {share:.2g} % spikes": ", {share:.2g} % Ausreißer",
-    "; {share:.3g} % was clean and stayed": "; {share:.3g} % waren sauber und blieben",
+    "the object is scaled unevenly: apply its scale (Ctrl A) and denoise again": (
+        "das Objekt ist ungleich skaliert: seine Skalierung anwenden (Strg A) und noch einmal entrauschen"
+    ),
+    "the cage was denoised: to clean what Subdivision shows, apply it first": (
+        "das Grundnetz wurde entrauscht: für das, was Unterteilung zeigt, den Modifikator zuerst anwenden"
+    ),
+    ": noise of {lengths} removed": ": Rauschen von {lengths} entfernt",
 }

@@ -7,7 +7,10 @@ TEXTS = {
     "Advanced": "Erweitert",
     "Last Run": "Letzter Lauf",
     "Noise": "Rauschen",
-    "Try It": "Ausprobieren",
+    "Sample Data": "Beispieldaten",
+    "Learned, on face normals": "Gelernt, auf Flächennormalen",
+    "None, fitted at once": "Keiner, Punkte direkt angepasst",
+    "By the noise at each place": "Nach dem Rauschen an jeder Stelle",
     # What a run took for noise
     "Strength is 0": "Stärke ist 0",
     "Clean already": "Schon sauber",

@@ -3,6 +3,7 @@
 """German for the settings of a denoising run, and for presets."""
 
 TEXTS = {
+    "Research": "Forschung",
     # Presets
     "Preset": "Vorgabe",
     "Framelet Presets": "Framelet-Vorgaben",
