@@ -89,8 +89,8 @@ TEXTS = {
         "Von Punkt zu Punkt verschieden; was breiter ist, gilt als Relief"
     ),
     "Wide": "Breit",
-    "Smooth over several edges, or steps of voxels and terraces; fine relief goes too": (
-        "Über mehrere Kanten glatt, oder Stufen von Voxeln und Terrassen; auch feines Relief verschwindet"
+    "Smooth over several edges, or steps of voxels; fine relief goes too": (
+        "Über mehrere Kanten glatt, oder Stufen von Voxeln; auch feines Relief verschwindet"
     ),
     "Passes": "Durchgänge",
     "How often the surface is cleaned, each time guided by the result before: larger cleans strong noise on machine "
