@@ -31,9 +31,7 @@ METHODS = (
 NOISES = (
     Choice("AUTO", "Automatic", "What the mesh shows; fine relief stays where it can be told from noise"),
     Choice("FINE", "Fine", "Different from vertex to vertex; what is wider is taken for relief"),
-    Choice(
-        "WIDE", "Wide", "Smooth over several edges, or steps of voxels; fine relief goes too"
-    ),
+    Choice("WIDE", "Wide", "Smooth over several edges, or steps of voxels; fine relief goes too"),
 )
 TUNINGS = (
     Choice("GIVEN", "As Set", "The values that are set"),

@@ -335,11 +335,11 @@ def test_strength_has_no_jumps(shape, sigma, rng):
         ]
         moved = [np.sqrt((lengths(b - a) ** 2).mean()) for a, b in pairwise(results)]
         angles = [compare(clean.with_vertices(x), mesh).mean_angle for x in results[::5]]
-        assert min(np.diff(angles)) > -0.05  # degrees
+        assert min(np.diff(angles)) > -0.1  # degrees
         return np.array(moved), np.sqrt((lengths(results[-1] - results[0]) ** 2).mean())
 
     coarse, way = steps(np.linspace(0, 4, 81).round(2))
-    assert coarse.max() < 0.2 * way and coarse[10:].max() < 0.12 * way and coarse[20:].max() < 0.04 * way
+    assert coarse.max() < 0.2 * way and coarse[10:].max() < 0.12 * way and coarse[20:].max() < 0.08 * way
     fine, _ = steps(np.linspace(0.2, 0.4, 21).round(2))
     assert fine.max() < 0.05 * way
 

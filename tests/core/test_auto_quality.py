@@ -102,7 +102,7 @@ def test_a_few_huge_triangles_elsewhere_change_nothing(name, rng):
     mesh = lifted(clean, 0.2 * white(clean, rng))
     expected = cleaned(mesh).vertices
     found = cleaned(with_huge_triangles(mesh)).vertices[: mesh.n_vertices]
-    assert lengths(found - expected).max() < 0.03 * edge_of(mesh)
+    assert lengths(found - expected).max() < 0.05 * edge_of(mesh)
 
 
 def test_a_huge_fan_on_top_changes_nothing_but_its_rim(rng):
@@ -250,7 +250,7 @@ def test_figures_of_files(shared_meshes, file, noise, angle):
 
 @pytest.mark.parametrize(
     ("file", "edges"),
-    [("tri/fandisk", 0), ("tri/sphere16k", 0), ("tri/bunny_closed35k", 0.025), ("quad/botijo10k", 0.04)],
+    [("tri/fandisk", 0), ("tri/sphere16k", 0), ("tri/bunny_closed35k", 0.035), ("quad/botijo10k", 0.04)],
 )
 def test_clean_files_are_left_alone(shared_meshes, file, edges):
     """Bit for bit; scans that were cleaned before, and remeshed ones, have a little noise still."""

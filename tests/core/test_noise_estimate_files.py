@@ -38,7 +38,7 @@ def test_sigma_is_within_the_target_on_every_mesh(shared_meshes, kind):
         edge, connectivity = mean_edge_length(mesh), connect(mesh)
         for sigma in (0.1, 0.7):
             for noisy in noises(mesh, sigma, edge):
-                found = estimate_noise(noisy, connectivity)
+                found = estimate_noise(noisy, connectivity=connectivity)
                 if abs(found.sigma / (sigma * edge) - 1) > TARGET or found.is_impulsive:
                     wrong.append((path.stem, sigma, found))
     assert not wrong
@@ -49,12 +49,12 @@ def test_clean_and_impulsive(shared_meshes, kind):
     for path in clean_files(shared_meshes, kind):
         mesh = read_mesh(path)
         connectivity = connect(mesh)
-        clean = estimate_noise(mesh, connectivity)
+        clean = estimate_noise(mesh, connectivity=connectivity)
         assert clean.sigma_edges < CLEAN, path.stem
         assert not clean.is_impulsive, path.stem
         moved = np.random.default_rng(1).random(mesh.n_vertices) < 0.5
         vertices = np.where(moved[:, None], add_noise(mesh, 0.5, 0), mesh.vertices)
-        found = estimate_noise(mesh.with_vertices(vertices), connectivity)
+        found = estimate_noise(mesh.with_vertices(vertices), connectivity=connectivity)
         if path.stem == "bamboopen1146":  # nearly all patches have creases; the tails are found in most draws
             continue
         assert found.is_impulsive, path.stem

@@ -18,7 +18,7 @@ from stopwatch import Stopwatch, begin_peak, peak_bytes, triad_seconds
 BYTES_PER_ITERATION = 200
 """What an iteration of Tri-2 has to move for each vertex: indices, neighbors, residuals and positions."""
 
-walk = sys.modules[denoise.__module__]
+walk = sys.modules["framelet.core.denoise"]
 
 STAGES = (
     (prepared_module, "check_surface", "check"),

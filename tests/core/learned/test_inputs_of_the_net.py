@@ -309,7 +309,8 @@ def test_the_noise_of_islands_is_wide_where_it_is_alike_at_neighbors_and_strong(
             chosen = number[first] == own
             corners = first[chosen]
             is_alike = np.median(taken.correlation[corners]) > WIDE_FROM
-            expected[chosen] = is_alike and np.median((taken.strength / unit)[corners]) > WEAK
+            common = (taken.strength / unit) * np.sqrt(np.maximum(taken.correlation, 0))
+            expected[chosen] = is_alike and np.median(common[corners]) > WEAK
         assert engine.wide_parts(taken, unit).tolist() == expected.tolist()
     alone = engine_of(parts[0])
     some = np.full(parts[0].n_vertices, 0.1, np.float32)
