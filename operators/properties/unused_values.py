@@ -21,6 +21,7 @@ REGION_NEEDS = {
     "max_edges": 'limit="EDGES"',
     "max_length": 'limit="LENGTH"',
     "weld_distance": "weld=True",
+    "straighten_borders": 'boundary="ALONG"',
 }
 """Options of a region, and the argument without which they have no effect."""
 

@@ -83,11 +83,14 @@ def test_poll_says_no_without_a_mesh_or_in_other_modes():
     assert not bpy.ops.object.framelet_denoise.poll()
     obj = noisy_monkey()
     assert bpy.ops.object.framelet_denoise.poll()
-    bpy.ops.object.mode_set(mode="SCULPT")
+    bpy.ops.object.armature_add()
+    armature = bpy.context.object
+    bpy.ops.object.mode_set(mode="EDIT")
     assert not bpy.ops.object.framelet_denoise.poll()
     with pytest.raises(RuntimeError, match="Object Mode"):
         bpy.ops.object.framelet_denoise()
     bpy.ops.object.mode_set(mode="OBJECT")
+    armature.select_set(False)
     obj.select_set(False)
     with pytest.raises(RuntimeError, match="Select at least one mesh"):
         bpy.ops.object.framelet_denoise()

@@ -109,5 +109,5 @@ def test_every_option_that_needs_another_has_its_words():
 
     from framelet.operators.properties.region_values import shown_region_names
 
-    plain = SimpleNamespace(vertex_group="", limit="NONE", weld=False)
+    plain = SimpleNamespace(vertex_group="", limit="NONE", weld=False, boundary="FIXED")
     assert set(REGION_NEEDS) == set(REGION_NAMES) - set(shown_region_names(plain))
