@@ -367,7 +367,7 @@ def test_the_report_says_the_range(torus, capfd):
     assert expected in capfd.readouterr().out
     bpy.ops.object.framelet_heat_map(quantity="ANGLE")
     assert (
-        f"Angle change of faces of ‘Torus’: colors from 0° to {shown().maximum:.4g}°"
+        f"Angle change of faces of ‘Torus’: colors from 0° to {shown().maximum:.3g}°"
         in capfd.readouterr().out
     )
 
