@@ -5,6 +5,7 @@
 import bpy
 import numpy as np
 import pytest
+from framelet.operators.mesh_io.custom_normals import read_normals
 
 # isort: split
 # This module exists once bpy was imported.
@@ -164,7 +165,11 @@ def test_only_positions_change(rich_object, operator, values, mode):
 def test_custom_normals_stay(rich_object):
     mesh = rich_object.data
     mesh.normals_split_custom_set([(0.0, 0.6, 0.8)] * len(mesh.loops))
-    before = attribute_bytes(mesh)
+    before, directions = attribute_bytes(mesh), read_normals(mesh)
     assert any(name == "custom_normal" for name, _, _ in before) or mesh.has_custom_normals
     bpy.ops.object.framelet_denoise()
-    assert attribute_bytes(mesh) == before
+    after = attribute_bytes(mesh)
+    changed = {key for key in before | after if before.get(key) != after.get(key)}
+    # They follow the surface as they are, or keep their directions where these fit the result better.
+    assert {name for name, _, _ in changed} <= {"custom_normal"}
+    assert not changed or np.abs(read_normals(mesh) - directions).max() < 1e-3

@@ -75,7 +75,7 @@ def test_every_preset(command, fails, sheets, read_ply, tmp_path, kind, key):
     single = surface.with_vertices(surface.vertices.astype(np.float32))  # as in the file
     expected = denoise(single, PRESETS[key].settings).vertices
     # Blender numbers edges in its own way, and the net works in single precision.
-    tolerance = 1e-4 if PRESETS[key].settings.method == "AUTO" else TOLERANCE
+    tolerance = 1e-3 if PRESETS[key].settings.method == "AUTO" else TOLERANCE
     np.testing.assert_allclose(read_ply(tmp_path / "out.ply").vertices, expected, atol=tolerance)
 
 
