@@ -112,7 +112,7 @@ def test_automatic_has_a_gray_row_for_each_parameter_of_the_paper():
     record = draw(panel.VIEW3D_PT_framelet)
     rows = table(record["label"])
     assert list(rows) == ROWS and set(record["label"]) <= set(record["grayed"])
-    assert rows["Levels"] == str(N_SCALES) and rows["Smoothing λ"] == "By the noise at each place"
+    assert rows["Levels"] == str(N_SCALES) and rows["Smoothing λ"] == "By local noise"
     bpy.ops.object.framelet_denoise()
     assert table(draw(panel.VIEW3D_PT_framelet)["label"])["Smoothing λ"] == "Clean already"
     bpy.ops.object.framelet_add_noise(sigma=0.2)

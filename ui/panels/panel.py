@@ -130,7 +130,7 @@ def _draw_learned(layout: bpy.types.UILayout, context: bpy.types.Context) -> Non
 def _noise_words(entry: bpy.types.PropertyGroup | None) -> str:
     """Say in one line what a run took for noise on an object, and removed."""
     if not entry or not entry.is_denoised or not entry.has_belief:
-        return n_("By the noise at each place")
+        return n_("By local noise")
     if entry.is_off or entry.is_clean:
         return n_("Strength is 0") if entry.is_off else n_("Clean already")
     edges = range_text(entry.sigma_low_edges, entry.sigma_high_edges)

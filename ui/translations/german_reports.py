@@ -10,7 +10,7 @@ TEXTS = {
     "Sample Data": "Beispieldaten",
     "Learned, on face normals": "Gelernt, auf Flächennormalen",
     "None, fitted at once": "Keiner, Punkte direkt angepasst",
-    "By the noise at each place": "Nach dem Rauschen an jeder Stelle",
+    "By local noise": "Nach dem Rauschen an jeder Stelle",
     # What a run took for noise
     "Strength is 0": "Stärke ist 0",
     "Clean already": "Schon sauber",
