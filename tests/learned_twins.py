@@ -139,8 +139,10 @@ def face_pairs_of(mesh, pairs):
     ]
 
 
-def slow_features(mesh, means, scales, taken=None, log_strength=0.0, width=0.0, least_island=500):
-    """Return the inputs of the net: of the faces of the graph, and of pairs in the order of `pairs_of`."""
+def slow_features(mesh, means, scales, taken=None, log_strength=0.0, least_island=500):
+    """Return the inputs of the net: of the faces of the graph, of pairs in the order of `pairs_of`, and what is
+    known of the island of each face.
+    """
     normals, centroids, areas, length = scales
     pairs = pairs_of(mesh)
     faces = polygons_of(mesh)
@@ -155,7 +157,7 @@ def slow_features(mesh, means, scales, taken=None, log_strength=0.0, width=0.0, 
             of_pairs[number, 2 + k] = (normals[g, k] - normals[f, k]) @ arms[k] / far[k]
         for k in range(2):
             of_pairs[number, 5 + k] = energy((normals[g, k] + normals[f, k]) @ arms[k] / unit)
-    result = np.zeros((len(faces), 40))
+    result = np.zeros((len(faces), 39))
     spread, is_flat = np.zeros((len(faces), 8)), np.zeros(len(faces), bool)
     quiet = np.log(FLOOR)
     for f, own_pairs in enumerate(face_pairs_of(mesh, pairs)):
@@ -177,12 +179,14 @@ def slow_features(mesh, means, scales, taken=None, log_strength=0.0, width=0.0, 
     for number in np.unique(part):
         own = part == number
         result[own, 21:37] = quantiles(spread[own], is_flat[own], log_strength)
-    result[:, 37] = width
     if taken is not None:
         for f, face in enumerate(faces):
-            result[f, 38] = energy(np.mean([taken[0][v] for v in face]) / length[f]) / 4 + 1
-            result[f, 39] = 2 * np.mean([taken[1][v] for v in face])
-    return result, of_pairs
+            result[f, 37] = energy(np.mean([taken[0][v] for v in face]) / length[f]) / 4 + 1
+            result[f, 38] = 2 * np.mean([taken[1][v] for v in face])
+    context = result[:, 21:].copy()
+    for number in np.unique(part):
+        context[part == number, -2:] = result[part == number, -2:].mean(axis=0)
+    return result, of_pairs, context
 
 
 def slow_offsets(mesh, after):
@@ -233,8 +237,11 @@ def quantiles(energies, is_flat, log_strength):
     return [*values, np.log((~is_flat).mean() + 0.01)]
 
 
-def slow_net(arrays, mesh, scales, features, pair_features, repeats, clip=6.0):
-    """Return clean unit normals of the faces of the graph, (F, 3), face by face and pair by pair."""
+def slow_net(arrays, mesh, scales, features, pair_features, context, clip=6.0):
+    """Return clean unit normals of the faces of the graph, (F, 3), face by face and pair by pair.
+
+    `context`, (F, 18), is what is known of the island of each face.
+    """
     normals, _, areas, length = scales
     pairs = pairs_of(mesh)
     own_pairs = face_pairs_of(mesh, pairs)
@@ -247,20 +254,30 @@ def slow_net(arrays, mesh, scales, features, pair_features, repeats, clip=6.0):
     def standard(x, kind):
         return np.clip((x - arrays[f"{kind}_mean"]) / arrays[f"{kind}_scale"], -clip, clip)
 
+    def shift(row):
+        known = (row - arrays["face_mean"][-18:]) / arrays["face_scale"][-18:]
+        return linear("shift", np.maximum(linear("context", np.clip(known, -clip, clip)), 0))
+
     vectors = normals.copy()
-    state = [linear("begin", np.maximum(linear("enter", standard(row, "face")), 0)) for row in features]
-    for number, n_steps in enumerate(repeats):
+    shifts = [shift(row) for row in context]
+    state = [
+        linear("begin", np.maximum(linear("enter", standard(row, "face")), 0)) + own[:16]
+        for row, own in zip(features, shifts, strict=True)
+    ]
+    for number, n_steps in enumerate(arrays["repeats"]):
         name = f"layers.{number}"
+        biases = [np.split(own[16 + 24 * number : 40 + 24 * number], (16, 20)) for own in shifts]
         hidden, gains = [], []
         for (f, g, _), row in zip(pairs, pair_features, strict=True):
             energies = energy(vectors[g] - vectors[f]) / 4
             own = linear(f"{name}.from_faces", state[f]) + linear(f"{name}.from_faces", state[g])
             own += linear(f"{name}.from_pairs", np.concatenate((energies, standard(row, "edge"))))
+            own += biases[f][0]
             hidden.append(np.maximum(own, 0))
             share = (
                 2 * weight[f] * weight[g] / (weight[f] + weight[g]) / (max(n_corners[f], n_corners[g]) + 1)
             )
-            gains.append(share / (1 + np.exp(-linear(f"{name}.gains", hidden[-1]))))
+            gains.append(share / (1 + np.exp(-linear(f"{name}.gains", hidden[-1]) - biases[f][1])))
         for _ in range(n_steps):
             following = vectors.copy()
             for (f, g, _), gain in zip(pairs, gains, strict=True):
@@ -269,7 +286,7 @@ def slow_net(arrays, mesh, scales, features, pair_features, repeats, clip=6.0):
                 following[g] -= flow / weight[g]
             vectors = following
         for f, pair in enumerate(own_pairs):
-            mixing = np.tanh(linear(f"{name}.mixing", state[f]))
+            mixing = np.tanh(linear(f"{name}.mixing", state[f]) + biases[f][2])
             vectors[f] += mixing[:, None] * (arrays[f"{name}.channels"] @ vectors[f])
             lengths = [energy(vectors[f, k + 1] - vectors[f, k]) for k in range(3)]
             lengths.append(energy(vectors[f, 0]))

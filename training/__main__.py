@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Make the meshes, train the net, and write its arrays: one command, which goes on where it was cut off.
+"""Make the meshes, train the nets, and write their arrays: one command, which goes on where it was cut off.
 
 python3 .ci/environment.py run training -- -m training
 """
@@ -12,6 +12,7 @@ from pathlib import Path
 
 from .shapes.__main__ import make_shapes
 from .train import LARGEST_RATE, train
+from .width import compare, fit
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -21,9 +22,10 @@ def main() -> int:
     parser = argparse.ArgumentParser(prog="python -m training", description=__doc__)
     parser.add_argument("--folder", type=Path, default=ROOT / "build" / "training", help="all that is made")
     parser.add_argument("--shapes", type=int, default=1250, help="number of meshes")
-    parser.add_argument("--minutes", type=float, default=240, help="time for training, in all runs together")
+    parser.add_argument("--minutes", type=float, default=240, help="time for each net, in all runs together")
+    parser.add_argument("--draws", type=int, default=1500, help="runs of both nets to learn the choice from")
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--start", type=Path, help="checkpoint to start from, such as training/checkpoint.pt")
+    parser.add_argument("--start", type=Path, help="folder of checkpoints to start from, such as training")
     parser.add_argument("--rate", type=float, default=LARGEST_RATE, help="largest learning rate")
     parser.add_argument("--write", action="store_true", help="replace the arrays that come with Framelet")
     options = parser.parse_args()
@@ -31,18 +33,27 @@ def main() -> int:
     commit = subprocess.run(
         ["git", "rev-parse", "HEAD"], cwd=ROOT, capture_output=True, text=True, check=False
     ).stdout.strip()
-    target = ROOT / "core" / "learned" / "weights.npz" if options.write else options.folder / "weights.npz"
-    train(
-        options.folder / "shapes",
-        options.folder / "run",
-        60 * options.minutes,
-        options.seed,
-        target,
-        warm_start=options.start,
-        rate=options.rate,
-        provenance={"shapes": f"{options.shapes} of seed 1", "seed": str(options.seed), "commit": commit},
-    )
-    print(f"Wrote {target}.")
+    target = ROOT / "core" / "learned" if options.write else options.folder
+    nets = {}
+    for width in ("fine", "wide"):
+        nets[width] = train(
+            width,
+            options.folder / "shapes",
+            options.folder / width,
+            60 * options.minutes,
+            options.seed,
+            target / f"{width}.npz",
+            warm_start=options.start and options.start / f"{width}.pt",
+            rate=options.rate,
+            provenance={
+                "shapes": f"{options.shapes} of seed 1",
+                "seed": str(options.seed),
+                "commit": commit,
+            },
+        )
+    found = compare(nets, options.folder / "shapes", options.draws, options.seed)
+    gain, best = fit(*found, target / "width.npz")
+    print(f"Wrote {target}. The choice gains {gain:.3f} of {best:.3f} over fine alone.")
     return 0
 
 

@@ -39,8 +39,8 @@ LESS_RELIEF = 0.4
 SCANS = 2
 """How often range images are drawn for once that others are: what scanners make is what has to be right."""
 
-TOLD = 0.6
-"""Share of the draws where the net is told how wide the noise is."""
+REPEATS = {"fine": (1, 2, 2, 2, 2, 2, 2, 1), "wide": (2, 3, 4, 4, 4, 4, 3, 2)}
+"""Steps of shrinkage with the same gains, for each layer. What is wide has to come from farther away."""
 
 WARM_UP = 0.02
 """Share of the time in which the learning rate rises."""
@@ -57,10 +57,8 @@ MOST_FACES = 21_000
 class Draw:
     """A clean mesh with noise."""
 
-    def __init__(self, mesh: SampleMesh, rng: np.random.Generator, *, is_told: bool | None = None) -> None:
-        positions, width, self.kind = noise.draw(mesh, rng)
-        is_told = rng.random() < TOLD if is_told is None else is_told
-        self.width = width if is_told else 0.0
+    def __init__(self, mesh: SampleMesh, rng: np.random.Generator, width: str) -> None:
+        positions, self.kind = noise.draw(mesh, rng, width)
         self.engine = mesh.engine.placed(mesh.surface.with_vertices(positions), mesh.connectivity)
         self.points = np.ascontiguousarray(positions.T, np.float32)
         wanted = mesh.normals.copy()
@@ -77,9 +75,9 @@ class Draw:
     def described(self, normals: NDArray[np.float32] | None = None) -> tuple[Scales, Features]:
         """Return what the net sees: of the noisy mesh, or of the mesh that fits wanted normals (3, F)."""
         if normals is None:
-            return self.engine.describe(self.points, width=self.width)
+            return self.engine.describe(self.points)
         points = self.engine.fit.fit(self.points, normals)
-        return self.engine.describe(points, self.engine.taken(self.points, points), width=self.width)
+        return self.engine.describe(points, self.engine.taken(self.points, points))
 
     def loss(self, normals: torch.Tensor) -> torch.Tensor:
         """Return the mean over clusters of log(mean |n - n*| + floor)."""
@@ -136,6 +134,7 @@ def keep_memory() -> None:
 
 
 def train(
+    width: str,
     shapes: Path,
     output: Path,
     seconds: float,
@@ -145,11 +144,13 @@ def train(
     warm_start: Path | None = None,
     rate: float = LARGEST_RATE,
     provenance: Mapping[str, str] | None = None,
-) -> None:
-    """Train the net and write its arrays.
+) -> Net:
+    """Train a net and write its arrays.
 
     Parameters
     ----------
+    width : str
+        Which net: "fine" or "wide".
     shapes : Path
         Folder of the meshes. New ones are seen while training.
     output : Path
@@ -166,6 +167,11 @@ def train(
         Largest learning rate.
     provenance : mapping, optional
         Texts that are written beside the arrays.
+
+    Returns
+    -------
+    Net
+        The running mean of the weights.
     """
     keep_memory()
     torch.set_num_threads(1)
@@ -177,9 +183,9 @@ def train(
     held_out = [path for path in paths if int(path.stem) % 20 == 0]
     meshes: dict[Path, SampleMesh] = {}
     held = [SampleMesh.load(path) for path in held_out[:14]]
-    net, average = Net(), Net()
+    net, average = Net(REPEATS[width]), Net(REPEATS[width])
     trial = np.random.default_rng(1000)
-    validation = [Draw(held[number % len(held)], trial, is_told=False) for number in range(42)]
+    validation = [Draw(held[number % len(held)], trial, width) for number in range(42)]
     optimizer = torch.optim.Adam(net.parameters(), lr=LARGEST_RATE, betas=(0.9, 0.98))
     elapsed, step = 0.0, 0
     if checkpoint.exists():
@@ -216,7 +222,7 @@ def train(
             continue
         optimizer.zero_grad()
         has_two = warm_start is not None or share > ONE_PASS or rng.random() < SOME
-        losses = both_passes(net, Draw(mesh, rng), (0.5, 1.0) if has_two else (1.0,))
+        losses = both_passes(net, Draw(mesh, rng, width), (0.5, 1.0) if has_two else (1.0,))
         if not all(map(np.isfinite, losses)):
             print(f"{path.name} gave {losses}", file=log)
             continue
@@ -241,3 +247,4 @@ def train(
             mean, text = validate(average, validation)
             print(f"{elapsed:6.0f} s step {step} validation {mean:.4f}: {text}", file=log)
     average.export(target, steps=str(step), **(provenance or {}))
+    return average

@@ -19,18 +19,10 @@ from ..mesh.ragged import Ragged
 from ..mesh.surface_mesh import SurfaceMesh
 from .face_graph import FACES_AT_ONCE, FaceGraph, Polygons
 from .features import Features, find_features
-from .islands import faces_of_islands, find_islands
+from .islands import find_islands
 from .scales import Scales, find_scales
 from .screened_fit import ScreenedFit
 from .taken import Taken, find_taken
-
-WIDE_FROM = 0.05
-"""Correlation with the ring of what a pass took away from which the noise is wide. Of white noise it is 0 or
-less, as a pass takes from each vertex a little of what its neighbors had."""
-
-WEAK = 0.01
-"""Strength in local edge lengths of what neighbors have in common in what a pass took away, up to which
-nothing is said of the width: that may be relief."""
 
 LONG = 8.0
 """Length in mean lengths of the edges at its ends from which an edge is long."""
@@ -103,32 +95,16 @@ class FaceEngine:
         points: NDArray[np.float32],
         taken: Taken | None = None,
         log_strength: float = 0.0,
-        width: float | NDArray[np.float32] = 0.0,
     ) -> tuple[Scales, Features]:
         """Return scales and features of positions, shape (3, N), float32; see `find_features`."""
         scales = find_scales(points, self.graph, self.rings)
         return scales, find_features(
-            scales, self.graph, self.rings, self.at_vertex, self.island, taken, log_strength, width
+            scales, self.graph, self.rings, self.at_vertex, self.island, taken, log_strength
         )
 
     def taken(self, before: NDArray[np.float32], after: NDArray[np.float32]) -> Taken:
         """Return what was taken away between two positions, shape (3, N)."""
         return find_taken(self.offsets(before, after), self.rings)
-
-    def wide_parts(self, taken: Taken, unit: NDArray[np.float32]) -> NDArray[np.float32]:
-        """Return 1 for the faces of islands whose noise is wide, else 0, shape (F,).
-
-        `unit`, shape (N,), are local edge lengths.
-        """
-        corners = np.concatenate([group.corners[0] for group in self.graph.groups])
-        correlation = taken.correlation[corners]
-        common = (taken.strength / unit)[corners] * np.sqrt(np.maximum(correlation, 0))
-        parts = [slice(None)] if self.island is None else faces_of_islands(self.island)
-        result = np.zeros(len(corners), np.float32)
-        for part in parts:
-            is_wide = np.median(correlation[part]) > WIDE_FROM and np.median(common[part]) > WEAK
-            result[part] = is_wide
-        return result
 
     def vertex_normals(self, points: NDArray[np.float32]) -> NDArray[np.float32]:
         """Return unit vertex normals, shape (3, N): area-weighted means of the faces around a vertex."""

@@ -33,9 +33,10 @@ N_SAMPLES = 4096
 PAIRS_OF_SCALES = ((0, 1), (1, 2), (2, 3), (0, 2), (1, 3), (0, 3))
 
 N_SPREAD = 8
-N_GLOBAL = 17
+N_GLOBAL = 16
 N_TAKEN = 2
 N_FACE = 3 + 3 + len(PAIRS_OF_SCALES) + 1 + N_SPREAD + N_GLOBAL + N_TAKEN
+N_CONTEXT = N_GLOBAL + N_TAKEN
 N_EDGE = 7
 
 
@@ -47,6 +48,12 @@ class Features:
     ----------
     pairs : ndarray, shape (P + 1, N_EDGE), float32
         Distance, ratio of areas, bends and offsets across each edge; 0 for the pair without faces.
+    quantiles : ndarray, shape (I, N_GLOBAL), float32
+        Quantiles of energies over each island, as they are at Strength 1; small islands are one.
+    context : ndarray, shape (I, N_CONTEXT), float32
+        What is known of each island as a whole: its quantiles, and means of what the pass before took away.
+    island : ndarray, shape (F,), intp, or None
+        The island of each face, by its row; None if there is one.
     block : callable
         `block(faces, polygons)` returns the inputs of some faces, shape (n, N_FACE), float32: heights and
         energies at each face, the same spread over its neighborhood, quantiles over its island, and what the
@@ -56,6 +63,9 @@ class Features:
     """
 
     pairs: NDArray[np.float32]
+    quantiles: NDArray[np.float32]
+    context: NDArray[np.float32]
+    island: NDArray[np.intp] | None
     block: Callable[[slice, Polygons], NDArray[np.float32]]
     graph: FaceGraph
 
@@ -86,7 +96,6 @@ def find_features(
     island: NDArray[np.int32] | None,
     taken: Taken | None = None,
     log_strength: float = 0.0,
-    width: float | NDArray[np.float32] = 0.0,
 ) -> Features:
     """Describe a surface for the net.
 
@@ -106,8 +115,6 @@ def find_features(
         What the pass before took away.
     log_strength : float
         Logarithm of Strength: added to the logarithms of fine jumps, and half of it to those of heights.
-    width : float or ndarray, shape (F,)
-        What is expected of the noise: 1 wide, -1 fine, 0 nothing.
     """
     n_bands = N_SCALES - 1
     pairs = np.zeros((graph.n_pairs + 1, N_EDGE), np.float32)
@@ -181,8 +188,25 @@ def find_features(
         )
 
     graph.for_faces(energies_at)
-    widths = np.asarray(width, np.float32)
-    quantiles = _quantiles(spread, is_flat, island, log_strength)
+    parts = [slice(None)] if island is None else faces_of_islands(island)
+    quantiles = np.array([_quantiles(spread[part], is_flat[part]) for part in parts])
+    stronger = quantiles + np.float32(log_strength) * _BY_STRENGTH
+    row = None
+    if island is not None:
+        row = np.empty(graph.n_faces, np.intp)
+        for number, part in enumerate(parts):
+            row[part] = number
+    before = np.zeros((graph.n_faces, N_TAKEN), np.float32)
+    if taken is not None:
+
+        def recall(block: slice, polygons: Polygons) -> None:
+            strength = taken.strength.take(polygons.corners).mean(axis=0) / scales.length[block]
+            before[block, 0] = energy(strength) / 4 + 1  # 0, as in a first pass, for a usual strength
+            before[block, 1] = 2 * taken.correlation.take(polygons.corners).mean(axis=0)
+
+        graph.for_faces(recall)
+    means = np.array([before[part].mean(axis=0) for part in parts])
+    context = np.concatenate((stronger, means), axis=1)
     at_faces = rings.inward(at_vertex.outward(at_vertex.mean(spread)))
     at_faces = rings.outward(rings.averaged(at_faces, SPREAD_AVERAGES))
 
@@ -213,37 +237,19 @@ def find_features(
             total[:, :2] += np.float32(2 * log_strength)
             total[:, n_bands : 2 * n_bands] += np.float32(log_strength)
         faces[:, column + 1 : column + 1 + N_SPREAD] = total
-        faces[:, column + 1 + N_SPREAD : -N_TAKEN - 1] = quantiles if island is None else quantiles[block]
-        faces[:, -N_TAKEN - 1] = widths if widths.ndim == 0 else widths[block]
-        faces[:, -N_TAKEN:] = 0
-        if taken is not None:
-            strength = taken.strength.take(polygons.corners).mean(axis=0) / unit
-            faces[:, -2] = energy(strength) / 4 + 1  # 0, as in a first pass, for a usual strength
-            faces[:, -1] = 2 * taken.correlation.take(polygons.corners).mean(axis=0)
+        faces[:, column + 1 + N_SPREAD : -N_TAKEN] = stronger if row is None else stronger[row[block]]
+        faces[:, -N_TAKEN:] = before[block]
         return faces
 
-    return Features(pairs, collect, graph)
+    return Features(pairs, quantiles, context, row, collect, graph)
 
 
-def _quantiles(
-    energies: NDArray[np.float32],
-    is_flat: NDArray[np.bool_],
-    island: NDArray[np.int32] | None,
-    log_strength: float,
-) -> NDArray[np.float32]:
-    """Return quantiles over the island of each face, (F or 1, N_GLOBAL - 1); flat faces do not count."""
-    if island is None:
-        return _quantiles_of(energies, is_flat, log_strength)[None]
-    result = np.empty((len(island), N_GLOBAL - 1), np.float32)
-    for part in faces_of_islands(island):
-        result[part] = _quantiles_of(energies[part], is_flat[part], log_strength)
-    return result
+_BY_STRENGTH = np.array([2] * 6 + [0] * 3 + [1] * 6 + [0], np.float32)
+"""By how much quantiles grow with the logarithm of the noise: fine jumps, heights, but no wide jumps."""
 
 
-def _quantiles_of(
-    energies: NDArray[np.float32], is_flat: NDArray[np.bool_], log_strength: float
-) -> NDArray[np.float32]:
-    """Return quantiles of energies of faces, shape (F, 8), as N_GLOBAL - 1 numbers."""
+def _quantiles(energies: NDArray[np.float32], is_flat: NDArray[np.bool_]) -> NDArray[np.float32]:
+    """Return quantiles of energies of faces, shape (F, 8), as N_GLOBAL numbers; flat faces do not count."""
     n_bands = N_SCALES - 1
     counted = np.flatnonzero(~is_flat)
     share = len(counted) / max(len(is_flat), 1)
@@ -255,7 +261,4 @@ def _quantiles_of(
     last = len(ordered) - 1
     jumps = ordered[[round(q * last) for q in (0.25, 0.5, 0.75)], :n_bands]
     heights = ordered[[round(q * last) for q in (0.5, 0.9)], n_bands:]
-    jumps[:, :2] += np.float32(2 * log_strength)
-    heights += np.float32(log_strength)
-    values = [*jumps.T.ravel(), *heights.T.ravel(), np.log(share + 0.01)]
-    return np.array(values, np.float32)
+    return np.array([*jumps.T.ravel(), *heights.T.ravel(), np.log(share + 0.01)], np.float32)

@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .face_graph import FACES_AT_ONCE, FaceGraph, Polygons
-from .features import FLOOR, Features
+from .features import FLOOR, N_CONTEXT, Features
 from .scales import N_SCALES, Scales
 from .scratch import Scratch
 
@@ -31,8 +31,7 @@ HIDDEN = 16
 
 INPUT_HIDDEN = 32
 
-REPEATS = (1, 2, 2, 2, 2, 2, 2, 1)
-"""Steps of shrinkage with the same gains, for each layer."""
+N_LAYERS = 8
 
 CLIP = np.float32(6)
 """Standardized inputs are cut off here: far out the net has seen nothing."""
@@ -43,13 +42,14 @@ LEAST_AREA = np.float32(1e-4)
 SMALL_PRODUCT = 2**17
 """Multiplications up to which OpenBLAS works on the calling thread: half of its limit."""
 
-WEIGHTS = Path(__file__).with_name("weights.npz")
+WEIGHTS = {width: Path(__file__).with_name(f"{width}.npz") for width in ("fine", "wide")}
+"""The arrays that come with Framelet: for noise from vertex to vertex, and for noise that neighbors share."""
 
 Matrix = NDArray[np.float32]
 
 
 class Layer(NamedTuple):
-    """Arrays of a layer, ready for rows times matrix; biases are repeated over a block."""
+    """Arrays of a layer, ready for rows times matrix; biases of faces are repeated over a block."""
 
     from_faces: Matrix
     from_energies: Matrix
@@ -67,22 +67,46 @@ class Layer(NamedTuple):
     update_bias: Matrix
 
 
+class Bias:
+    """Rows that are added for the faces or pairs of a block: those of their islands.
+
+    Parameters
+    ----------
+    rows : ndarray, shape (I, n), float32
+        A row for each island.
+    island : ndarray, shape (F,), intp, or None
+        The island of each face; None if there is one.
+    """
+
+    def __init__(self, rows: Matrix, island: NDArray[np.intp] | None) -> None:
+        self._island = island
+        # NumPy adds whole blocks several times faster than short rows.
+        self._rows = np.tile(rows, (FACES_AT_ONCE, 1)) if island is None else rows
+
+    def of(self, faces: slice | NDArray[np.int32], n: int) -> Matrix:
+        """Return the rows for n faces, shape (n, ...)."""
+        return self._rows[:n] if self._island is None else self._rows.take(self._island[faces], axis=0)
+
+
 class Net:
     """The learned arrays.
 
     Parameters
     ----------
     arrays : mapping of str to ndarray
-        As `training` writes them.
+        As `training` writes them; `repeats`, shape (N_LAYERS,), are the steps with the same gains.
     """
 
     def __init__(self, arrays: Mapping[str, Matrix]) -> None:
         self.face_mean, self.face_scale = arrays["face_mean"], arrays["face_scale"]
         self.edge_mean, self.edge_scale = arrays["edge_mean"], arrays["edge_scale"]
         self.enter, self.enter_bias = arrays["enter.weight"].T, _tiled(arrays["enter.bias"])
-        self.begin, self.begin_bias = arrays["begin.weight"].T, _tiled(arrays["begin.bias"])
+        self.begin, self.begin_bias = arrays["begin.weight"].T, arrays["begin.bias"]
+        self.context, self.context_bias = arrays["context.weight"].T, arrays["context.bias"]
+        self.shift, self.shift_bias = arrays["shift.weight"].T, arrays["shift.bias"]
         self.leave, self.leave_bias = arrays["leave.weight"].T, _tiled(arrays["leave.bias"])
-        self.layers = [_layer(arrays, f"layers.{number}.") for number in range(len(REPEATS))]
+        self.repeats = arrays["repeats"].tolist()
+        self.layers = [_layer(arrays, f"layers.{number}.") for number in range(len(self.repeats))]
 
     def normals(
         self,
@@ -97,16 +121,23 @@ class Net:
         """
         return self.begun(scales, features, graph).normals(tick)
 
+    def shifts(self, context: Matrix) -> list[Matrix]:
+        """Return what is known of islands, shape (I, N_CONTEXT), as biases of state and layers, shape (I, n)."""
+        known = (context - self.face_mean[-N_CONTEXT:]) / self.face_scale[-N_CONTEXT:]
+        hidden = np.maximum(np.clip(known, -CLIP, CLIP) @ self.context + self.context_bias, 0)
+        sizes = [HIDDEN, *[HIDDEN, N_SCALES, N_SCALES] * len(self.layers)]
+        return np.split(hidden @ self.shift + self.shift_bias, np.cumsum(sizes)[:-1], axis=1)
+
     def begun(self, scales: Scales, features: Features, graph: FaceGraph) -> NetRun:
         """Return a run that has taken in the features, so that their memory can be used for the rest."""
         return NetRun(self, scales, features, graph)
 
 
 @cache
-def load_net() -> Net:
-    """Read the arrays that come with Framelet."""
-    with np.load(WEIGHTS) as file:
-        return Net({name: file[name] for name in file.files if file[name].dtype.kind == "f"})
+def load_net(width: str) -> Net:
+    """Read the arrays that come with Framelet for "fine" or "wide" noise."""
+    with np.load(WEIGHTS[width]) as file:
+        return Net({name: file[name] for name in file.files if file[name].dtype.kind in "fi"})
 
 
 def pair_weights(scales: Scales, graph: FaceGraph) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
@@ -133,6 +164,19 @@ class NetRun:
         self.factor = self._factor(weight)
         self.scratch = Scratch()
         self.zeros = np.zeros((FACES_AT_ONCE, HIDDEN), np.float32)
+        first, *others = net.shifts(features.context)
+        begin_bias = Bias(first + net.begin_bias, features.island)
+        # Each of the two faces of a pair offers half.
+        self.hidden_bias = [Bias(np.float32(0.5) * rows, features.island) for rows in others[::3]]
+        self.gain_bias = [
+            # A logistic function is half of 1 + tanh of the half.
+            Bias(np.float32(0.5) * rows + layer.gain_bias, features.island)
+            for rows, layer in zip(others[1::3], net.layers, strict=True)
+        ]
+        self.mixing_bias = [
+            Bias(rows + layer.mixing_bias, features.island)
+            for rows, layer in zip(others[2::3], net.layers, strict=True)
+        ]
         self.edge = np.ones((n_pairs, features.pairs.shape[1] + 1), np.float32)
 
         def standardize(start: int, stop: int) -> None:
@@ -149,9 +193,9 @@ class NetRun:
             np.clip(part, -CLIP, CLIP, out=part)
             hidden = _product(part, net.enter, net.enter_bias)
             np.maximum(hidden, np.float32(0), out=hidden)
-            state = _product(hidden, net.begin, net.begin_bias)
+            state = _product(hidden, net.begin, begin_bias.of(faces, len(part)))
             self.state[faces] = state
-            _times(state, net.layers[0].from_faces, self.offer[faces])
+            self._offer(0, faces, state)
 
         graph.for_faces(begin)
 
@@ -173,18 +217,23 @@ class NetRun:
         graph.for_pairs(kernel)
         return factor
 
+    def _offer(self, number: int, faces: slice, state: Matrix) -> None:
+        """Tell the pairs of some faces what a layer makes of their state."""
+        bias = self.hidden_bias[number].of(faces, len(state))
+        _product(state, self.net.layers[number].from_faces, bias, self.offer[faces])
+
     def normals(self, tick: Callable[[], None]) -> NDArray[np.float32]:
         """Go through all layers and return unit normals, shape (3, F)."""
-        layers, n_pairs = self.net.layers, self.graph.n_pairs
+        n_pairs = self.graph.n_pairs
         # Made here, where the memory of scales and features may be free again.
         self.following = np.empty_like(self.vectors)
         self.hidden = np.zeros((n_pairs + 1, HIDDEN), np.float32)
         self.gates = np.zeros((n_pairs + 1, N_SCALES), np.float32)
-        for layer, after, repeats in zip(layers, [*layers[1:], None], REPEATS, strict=True):
-            self.graph.for_pairs(partial(self._make_gates, layer))
+        for number, repeats in enumerate(self.net.repeats):
+            self.graph.for_pairs(partial(self._make_gates, number))
             for step in range(repeats):
                 is_last = step == repeats - 1
-                self.graph.for_faces(partial(self._diffuse, layer, after, is_last=is_last))
+                self.graph.for_faces(partial(self._diffuse, number, is_last=is_last))
                 self.vectors, self.following = self.following, self.vectors
             tick()
         normals = np.empty(self.vectors.shape[:2], np.float32)
@@ -202,8 +251,9 @@ class NetRun:
         self.graph.blocks.run(leave, self.graph.n_faces)
         return normals
 
-    def _make_gates(self, layer: Layer, start: int, stop: int) -> None:
+    def _make_gates(self, number: int, start: int, stop: int) -> None:
         """Make the gains of some pairs: what their faces offer, energies and features say how much."""
+        layer = self.net.layers[number]
         one, two, n = self.graph.first[start:stop], self.graph.second[start:stop], stop - start
         scratch = self.scratch
         energies, apart = scratch("energies", n, N_SCALES), scratch("apart", n, N_SCALES)
@@ -222,15 +272,14 @@ class NetRun:
         hidden += np.take(self.offer, two, axis=0, out=part, mode="clip")
         np.maximum(hidden, self.zeros[:n], out=hidden)
         gates = _times(hidden, layer.gains, self.gates[start:stop])
-        gates += layer.gain_bias[:n]
+        gates += self.gain_bias[number].of(one, n)
         np.tanh(gates, out=gates)
         gates += np.float32(1)
         gates *= self.factor[start:stop]
 
-    def _diffuse(
-        self, layer: Layer, after: Layer | None, faces: slice, polygons: Polygons, *, is_last: bool
-    ) -> None:
+    def _diffuse(self, number: int, faces: slice, polygons: Polygons, *, is_last: bool) -> None:
         """Take a step of shrinkage for some faces; after the last one of a layer, mix scales and update s."""
+        layer = self.net.layers[number]
         scratch, n = self.scratch, faces.stop - faces.start
         inverse = self.inverse_area[faces]
         step, total = (
@@ -255,7 +304,7 @@ class NetRun:
         if not is_last:
             return
         state, part = self.state[faces], scratch("part", n, HIDDEN)
-        mixing = _product(state, layer.mixing, layer.mixing_bias, gate)
+        mixing = _product(state, layer.mixing, self.mixing_bias[number].of(faces, n), gate)
         np.tanh(mixing, out=mixing)
         lengths = scratch("energies", n, N_SCALES)
         lengths.fill(FLOOR)
@@ -280,8 +329,8 @@ class NetRun:
         collected += _times(lengths, layer.collect_lengths, part)
         np.maximum(collected, self.zeros[:n], out=collected)
         state += _product(collected, layer.update, layer.update_bias, part)
-        if after is not None:
-            _times(state, after.from_faces, self.offer[faces])
+        if number + 1 < len(self.net.layers):
+            self._offer(number + 1, faces, state)
 
 
 _APART = np.zeros((N_SCALES, N_SCALES), np.float32)
@@ -304,10 +353,10 @@ def _layer(arrays: Mapping[str, Matrix], prefix: str) -> Layer:
         weight("from_faces"),
         from_pairs[:N_SCALES] * np.float32(0.25),
         np.vstack((from_pairs[N_SCALES:], bias("from_pairs"))),
-        weight("gains") * np.float32(0.5),  # a logistic function is half of 1 + tanh of the half
-        _tiled(bias("gains") * np.float32(0.5)),
+        weight("gains") * np.float32(0.5),
+        bias("gains") * np.float32(0.5),
         weight("mixing"),
-        _tiled(bias("mixing")),
+        bias("mixing"),
         np.ascontiguousarray(arrays[f"{prefix}channels"].T),
         collect[:HIDDEN],
         collect[HIDDEN : 2 * HIDDEN],

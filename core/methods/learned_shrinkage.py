@@ -17,23 +17,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..learned.engine import FaceEngine
-from ..learned.features import Features
-from ..learned.net import REPEATS, load_net
+from ..learned.net import N_LAYERS, load_net
 from ..learned.noise_field import find_belief
-from ..learned.scales import Scales
 from ..learned.stillness import clean_places, flat_vertices, hardly_moved
+from ..learned.taken import Taken
+from ..learned.width import find_wide
 from .problem import Problem, Solution
 
 WEAKEST = 0.25
 """Strength below which results are mixed with the input instead: nothing is learned of noise that weak."""
 
-TICKS = len(REPEATS) + 2
+TICKS = N_LAYERS + 2
 """Steps of a pass that are told: features, layers, fit."""
 
 FARTHEST = np.float32(30)
 """Displacement in local edge lengths from which a vertex stays: the tip of a spire, no spike of a scan."""
-
-WIDTHS = {"AUTO": 0.0, "FINE": -1.0, "WIDE": 1.0}
 
 
 class _Stopped(Exception):
@@ -57,27 +55,16 @@ def shrink_normals(problem: Problem) -> Solution:
     assert engine is not None
     points = np.ascontiguousarray(noisy, np.float32)
     run = _Run(points, engine, problem)
-    run.n_ticks = TICKS * (settings.passes + (settings.noise == "AUTO"))
+    run.n_ticks = TICKS * settings.passes
     amount = min(settings.strength / WEAKEST, 1.0)
-    log_strength = math.log(max(settings.strength, WEAKEST))
-    width: float | NDArray[np.float32] = WIDTHS[settings.noise]
     fitted, n_passes, is_stopped = points, 0, False
     try:
         if amount > 0.0 and engine.graph.n_faces:
-            if settings.noise == "AUTO":
-                # Of usual strength, so that what is measured does not depend on it.
-                first = run.first_pass(0.0, 0.0)
-                width = engine.wide_parts(engine.taken(points, first), run.unit)
-                if not width.any() and log_strength == 0.0:
-                    fitted, n_passes = first, 1
-                    run.skip()
-            elif settings.noise == "WIDE":
-                # Steps of voxels and terraces are flat and smooth as well: nothing is still.
-                fitted, n_passes = run.next_pass(points, log_strength, width), 1
-            else:
-                fitted, n_passes = run.first_pass(log_strength, width), 1
+            # Steps of voxels and terraces, which are wide noise, are flat and smooth as well: nothing is still.
+            fitted = run.next_pass(points) if settings.noise == "WIDE" else run.first_pass()
+            n_passes = 1
             while n_passes < settings.passes and run.is_free.any():
-                fitted, n_passes = run.next_pass(fitted, log_strength, width), n_passes + 1
+                fitted, n_passes = run.next_pass(fitted), n_passes + 1
     except _Stopped:
         is_stopped = True
     if not run.is_free.any():
@@ -92,11 +79,13 @@ def shrink_normals(problem: Problem) -> Solution:
 
 
 class _Run:
-    """Passes over a mesh, and which of its vertices are free."""
+    """Passes over a mesh, which of its vertices are free, and which of its faces have wide noise."""
 
     def __init__(self, points: NDArray[np.float32], engine: FaceEngine, problem: Problem) -> None:
         self.points, self.engine, self._problem = points, engine, problem
         self.n_ticks, self._n_done = TICKS, 0
+        self._log_strength = math.log(max(problem.settings.strength, WEAKEST))
+        self._is_wide = np.array([problem.settings.noise == "WIDE"])
         self._is_movable = np.ones(points.shape[1], bool)
         self._is_movable[problem.constraints.pinned] = False
         self.is_free = self._is_movable.copy()
@@ -107,11 +96,9 @@ class _Run:
         n_still = int(np.count_nonzero(self._is_movable & ~self.is_free))
         return n_still / max(int(np.count_nonzero(self._is_movable)), 1)
 
-    def first_pass(self, log_strength: float, width: float | NDArray[np.float32]) -> NDArray[np.float32]:
-        """Return the positions, shape (3, N), after a pass that also finds out what is still."""
-        scales, features = self.engine.describe(self.points, None, log_strength, width)
-        self.is_free &= ~flat_vertices(self.points, scales, self.engine.graph)
-        moved = self._fitted(scales, features)
+    def first_pass(self) -> NDArray[np.float32]:
+        """Return the positions, shape (3, N), after a pass that also finds out what is wide and what is still."""
+        moved = self._fitted(self._normals(self.points, None, is_first=True))
         is_clean = clean_places(
             self.points,
             self._problem.surface,
@@ -125,21 +112,34 @@ class _Run:
         moved[:, ~self.is_free] = self.points[:, ~self.is_free]
         return moved
 
-    def next_pass(
-        self, fitted: NDArray[np.float32], log_strength: float, width: float | NDArray[np.float32]
-    ) -> NDArray[np.float32]:
+    def next_pass(self, fitted: NDArray[np.float32]) -> NDArray[np.float32]:
         """Return the positions, shape (3, N), after a pass that is guided by fitted ones."""
         taken = self.engine.taken(self.points, fitted) if fitted is not self.points else None
-        return self._fitted(*self.engine.describe(fitted, taken, log_strength, width))
+        return self._fitted(self._normals(fitted, taken))
 
-    def _fitted(self, scales: Scales, features: Features) -> NDArray[np.float32]:
-        """Return the vertices, shape (3, N), that fit the normals that the net wants."""
+    def _normals(
+        self, points: NDArray[np.float32], taken: Taken | None, *, is_first: bool = False
+    ) -> NDArray[np.float32]:
+        """Return the normals that the nets want for faces, shape (3, F)."""
+        scales, features = self.engine.describe(points, taken, self._log_strength)
         self.unit = scales.unit
+        if is_first:
+            self.is_free &= ~flat_vertices(points, scales, self.engine.graph)
+            if self._problem.settings.noise == "AUTO":
+                self._is_wide = find_wide(features.quantiles)
         self._tick()
-        begun = load_net().begun(scales, features, self.engine.graph)
+        fine = None
+        if self._is_wide.any() and not self._is_wide.all():
+            # Islands of both kinds are rare: both nets see all of them.
+            own = scales._replace(normals=scales.normals.copy())
+            fine = load_net("fine").normals(own, features, self.engine.graph)
+        begun = load_net("wide" if self._is_wide.any() else "fine").begun(scales, features, self.engine.graph)
         del scales, features  # a third of the memory
         normals = begun.normals(self._tick)
-        del begun
+        return normals if fine is None else np.where(self._is_wide, normals, fine)
+
+    def _fitted(self, normals: NDArray[np.float32]) -> NDArray[np.float32]:
+        """Return the vertices, shape (3, N), whose faces have these normals."""
         moved = self.engine.fit.fit(self.points, normals, self.is_free)
         self._problem.constraints.apply(moved, self.points)
         step = moved - self.points
@@ -147,10 +147,6 @@ class _Run:
         moved[:, is_far] = self.points[:, is_far]
         self._tick()
         return moved
-
-    def skip(self) -> None:
-        """Count a pass as done that was not needed."""
-        self._n_done += TICKS
 
     def _tick(self) -> None:
         """Tell that a step is done."""

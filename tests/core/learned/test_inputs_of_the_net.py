@@ -10,7 +10,7 @@ from framelet.core.learned import features as features_module
 from framelet.core.learned import islands as islands_module
 from framelet.core.learned import scales as scales_module
 from framelet.core.learned import taken as taken_module
-from framelet.core.learned.engine import LONG, WEAK, WIDE_FROM, FaceEngine, long_edges
+from framelet.core.learned.engine import LONG, FaceEngine, long_edges
 from framelet.core.learned.net import load_net
 from kinds import ALONE, KINDS
 from learned_twins import (
@@ -21,7 +21,6 @@ from learned_twins import (
     SPREAD,
     face_order,
     pairs_of,
-    polygons_of,
     ring_matrix,
     slow_features,
     slow_offsets,
@@ -81,7 +80,7 @@ def test_the_constants_of_the_twins():
     assert np.float32(SHRUNK) == scales_module.SHRUNK
     assert np.float32(LEAST_LENGTH) == scales_module.LEAST_LENGTH
     assert SPREAD == features_module.SPREAD_AVERAGES == taken_module.SPREAD_AVERAGES
-    assert features_module.N_FACE == 40
+    assert features_module.N_FACE == 39
 
 
 @pytest.mark.parametrize("kind", ["irregular torus", "quad torus", "mixed sheet", "three pages", "border"])
@@ -170,7 +169,7 @@ def test_other_positions_have_an_engine_of_their_own_if_other_edges_are_long(rng
     assert not matrix_of(found.rings)[:, 17].any() and means[:, 17].any()
     for each in (found, expected):
         each.made = each.describe(points_of(far))
-        each.made += (load_net().normals(*each.made, each.graph),)
+        each.made += (load_net("wide").normals(*each.made, each.graph),)
         each.fitted = each.fit.fit(points_of(far), each.made[2])
     assert_same_bits(found.made[1].faces, expected.made[1].faces)
     assert_same_bits(found.fitted, expected.fitted)
@@ -224,23 +223,21 @@ def test_the_pass_before_is_seen_in_two_columns_only(rng):
     taken = engine.taken(points_of(noisy(mesh, rng)), points_of(mesh))
     _, first = engine.describe(points_of(mesh))
     _, second = engine.describe(points_of(mesh), taken)
-    assert features_module.N_TAKEN == 2 and not first.faces[:, 38:].any()
-    assert_same_bits(second.faces[:, :38].copy(), first.faces[:, :38].copy())
+    assert features_module.N_TAKEN == 2 and not first.faces[:, 37:].any()
+    assert_same_bits(second.faces[:, :37].copy(), first.faces[:, :37].copy())
     assert_same_bits(second.pairs, first.pairs)
-    assert np.abs(second.faces[:, 38:]).min(axis=0).min() > 0
+    assert np.abs(second.faces[:, 37:]).min(axis=0).min() > 0
     # What a usual noise leaves is near 0, as in a first pass; none at all is far from it.
     usual = taken_module.Taken(np.full(mesh.n_vertices, 0.13, np.float32), 0 * taken.correlation)
     _, found = engine.describe(points_of(mesh), usual)
-    assert np.abs(found.faces[:, 38]).max() < 0.5 and not found.faces[:, 39].any()
+    assert np.abs(found.faces[:, 37]).max() < 0.5 and not found.faces[:, 38].any()
     _, nothing = engine.describe(points_of(mesh), usual._replace(strength=0 * usual.strength))
-    assert (nothing.faces[:, 38] < -1.25).all()
+    assert (nothing.faces[:, 37] < -1.25).all()
 
 
 @pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize(
-    ("log_strength", "width", "is_first"), [(0.0, 0.0, True), (0.7, 1.0, True), (-0.5, -1.0, False)]
-)
-def test_features(kind, log_strength, width, is_first, rng, monkeypatch):
+@pytest.mark.parametrize(("log_strength", "is_first"), [(0.0, True), (0.7, True), (-0.5, False)])
+def test_features(kind, log_strength, is_first, rng, monkeypatch):
     monkeypatch.setattr(islands_module, "LEAST_ISLAND", 4)
     mesh = KINDS[kind]()
     if kind not in ("a flat part", "half a sheet"):
@@ -249,8 +246,7 @@ def test_features(kind, log_strength, width, is_first, rng, monkeypatch):
     taken = None
     if not is_first:
         taken = engine.taken(points_of(noisy(mesh, rng)), points_of(mesh))
-        width = rng.choice([0, 1], engine.graph.n_faces).astype(np.float32)
-    scales, found = engine.describe(points_of(mesh), taken, log_strength, width)
+    scales, found = engine.describe(points_of(mesh), taken, log_strength)
     # The twin takes the same scales, so that what rounding does to thin faces does not count.
     same = (
         scales.normals.transpose(1, 2, 0),
@@ -259,7 +255,10 @@ def test_features(kind, log_strength, width, is_first, rng, monkeypatch):
         scales.length,
     )
     same = [x.astype(float) for x in same]
-    faces, pairs = slow_features(mesh, matrix_of(engine.rings), same, taken, log_strength, width, 4)
+    faces, pairs, context = slow_features(mesh, matrix_of(engine.rings), same, taken, log_strength, 4)
+    island = np.zeros(len(faces), int) if found.island is None else found.island
+    assert np.abs(found.context[island] - context).max() < 5e-3
+    assert np.abs(found.quantiles - found.context[:, :16]).max() == pytest.approx(2 * abs(log_strength))
     assert found.faces.shape == faces.shape and found.faces.dtype == np.float32
     columns = np.abs(found.faces - faces).max(axis=0)
     # Deviations come out of differences of large squares.
@@ -289,34 +288,6 @@ def test_features_do_not_depend_on_pose_and_numbers(kind, rng):
     _, found = described(other, other.with_vertices(before.vertices[old]))
     assert np.abs(np.sort(found.faces, axis=0) - np.sort(plain.faces, axis=0)).max() < 0.02
     assert np.abs(np.sort(found.pairs, axis=0) - np.sort(plain.pairs, axis=0)).max() < 0.02
-
-
-def test_the_noise_of_islands_is_wide_where_it_is_alike_at_neighbors_and_strong(rng, monkeypatch):
-    """By the medians over the first corners of the faces of each island; small ones together."""
-    monkeypatch.setattr(islands_module, "LEAST_ISLAND", 300)
-    parts = [triangle_torus(12, 16), quad_torus(15, 25), triangle_torus(5, 6), triangle_torus(14, 14)]
-    mesh = union(*parts, quad_torus(4, 5))
-    engine = engine_of(mesh)
-    number = np.repeat([0, 1, 2, 3, 2], [part.n_vertices for part in (*parts, quad_torus(4, 5))])
-    first = np.array([polygon[0] for polygon in polygons_of(mesh)])
-    for _ in range(20):
-        correlation = rng.uniform(0, 0.1, 4)[number] + rng.uniform(-0.03, 0.03, mesh.n_vertices)
-        strength = rng.uniform(0.0, 0.09, 4)[number] + rng.uniform(0, 0.01, mesh.n_vertices)
-        taken = taken_module.Taken(strength.astype(np.float32), correlation.astype(np.float32))
-        unit = rng.uniform(0.5, 2, mesh.n_vertices).astype(np.float32)
-        expected = np.zeros(len(first))
-        for own in range(4):
-            chosen = number[first] == own
-            corners = first[chosen]
-            is_alike = np.median(taken.correlation[corners]) > WIDE_FROM
-            common = (taken.strength / unit) * np.sqrt(np.maximum(taken.correlation, 0))
-            expected[chosen] = is_alike and np.median(common[corners]) > WEAK
-        assert engine.wide_parts(taken, unit).tolist() == expected.tolist()
-    alone = engine_of(parts[0])
-    some = np.full(parts[0].n_vertices, 0.1, np.float32)
-    for strength, correlation in ((some, some), (some, 0 * some), (0 * some, some)):
-        found = alone.wide_parts(taken_module.Taken(strength, correlation), 0 * some + 1)
-        assert (found == float(strength.any() and correlation.any())).all()
 
 
 def test_islands_are_described_as_if_alone(rng, monkeypatch):

@@ -28,19 +28,13 @@ NETS = {
     "single triangle": MESHES["single triangle"],
     "single quad": MESHES["single quad"],
 }
-REPEATS = (1, 2, 1)
-N_LAYERS = len(REPEATS)
-
-
-@pytest.fixture
-def short(monkeypatch):
-    """Three layers are as good as many to compare, and cheaper."""
-    monkeypatch.setattr(net, "REPEATS", REPEATS)
+N_LAYERS = 3
+"""Three layers are as good as many to compare, and cheaper."""
 
 
 def random_arrays(rng, n_layers=N_LAYERS):
     """Return arrays of the shapes that come with Framelet, as a net begins."""
-    with np.load(net.WEIGHTS) as file:
+    with np.load(net.WEIGHTS["fine"]) as file:
         shapes = {name: file[name].shape for name in file.files if file[name].dtype.kind == "f"}
     arrays = {}
     for name, shape in shapes.items():
@@ -50,7 +44,10 @@ def random_arrays(rng, n_layers=N_LAYERS):
             arrays[name] = rng.uniform(0.5, 2.0, shape)
         else:
             arrays[name] = rng.normal(0, 0.5 / np.sqrt(shape[-1] if len(shape) > 1 else 1), shape)
-    return {name: array.astype(np.float32) for name, array in arrays.items()}
+    for name in ("shift.weight", "shift.bias"):
+        arrays[name] = arrays[name][: 16 + 24 * n_layers]
+    arrays = {name: array.astype(np.float32) for name, array in arrays.items()}
+    return {**arrays, "repeats": np.array((1, 2, 1) if n_layers == 3 else (1,) * n_layers)}
 
 
 def described(mesh, blocks=ALONE, **sizes):
@@ -59,7 +56,6 @@ def described(mesh, blocks=ALONE, **sizes):
 
 
 @pytest.mark.parametrize("name", NETS)
-@pytest.mark.usefixtures("short")
 def test_the_net_is_a_loop_over_faces_and_pairs(name, rng):
     mesh, arrays = noisy(NETS[name](), rng), random_arrays(rng)
     engine, scales, features = described(mesh)
@@ -79,12 +75,14 @@ def test_the_net_is_a_loop_over_faces_and_pairs(name, rng):
         number.setdefault(two, []).append(place)
     pair_features = [features.pairs[number[f, g].pop(0)] for f, g, _ in pairs_of(mesh)]
     expected = slow_net(
-        {key: array.astype(float) for key, array in arrays.items()},
+        {key: array.astype(float) if array.dtype.kind == "f" else array for key, array in arrays.items()},
         mesh,
         before,
         inputs,
         [row.astype(float) for row in pair_features],
-        REPEATS,
+        features.context.astype(float)[
+            np.zeros(len(inputs), int) if features.island is None else features.island
+        ],
     )
     assert found.shape == (3, graph.n_faces) and found.dtype == np.float32
     assert np.abs(found.T - expected).max() < 1e-3
@@ -93,7 +91,6 @@ def test_the_net_is_a_loop_over_faces_and_pairs(name, rng):
 
 
 @pytest.mark.parametrize("name", ["mixed sheet", "polygons"])
-@pytest.mark.usefixtures("short")
 def test_blocks_and_threads_do_not_change_a_bit(name, rng):
     mesh, arrays = noisy(NETS[name](), rng), random_arrays(rng)
     results = []
@@ -111,16 +108,19 @@ def test_normals_turn_with_the_mesh(rng):
     results = []
     for own in (mesh, mesh.with_vertices(mesh.vertices @ rotation)):
         engine, scales, features = described(own)
-        results.append(net.load_net().normals(scales, features, engine.graph).T)
+        results.append(net.load_net("wide").normals(scales, features, engine.graph).T)
     assert np.abs(results[1] - results[0] @ rotation).max() < 5e-3
 
 
 def test_normals_are_given_back_where_the_net_does_nothing(rng):
     """Gains and mixing of zero, and the finest scale alone in the end."""
-    arrays = {name: np.zeros_like(array) for name, array in random_arrays(rng, len(net.REPEATS)).items()}
+    arrays = {
+        name: (0 if array.dtype.kind == "f" else 1) * array
+        for name, array in random_arrays(rng, net.N_LAYERS).items()
+    }
     for name in ("face_scale", "edge_scale"):
         arrays[name] += 1
-    for number in range(len(net.REPEATS)):
+    for number in range(net.N_LAYERS):
         arrays[f"layers.{number}.gains.bias"] -= 100
     arrays["leave.bias"][0] = 2
     mesh = noisy(NETS["mixed sheet"](), rng)
@@ -133,8 +133,8 @@ def test_normals_are_given_back_where_the_net_does_nothing(rng):
 def test_it_ticks_after_each_layer(rng):
     mesh, ticks = noisy(NETS["border"](), rng), []
     engine, scales, features = described(mesh)
-    net.load_net().normals(scales, features, engine.graph, lambda: ticks.append(0))
-    assert len(ticks) == len(net.REPEATS)
+    net.load_net("wide").normals(scales, features, engine.graph, lambda: ticks.append(0))
+    assert len(ticks) == net.N_LAYERS
 
 
 def test_large_products_are_taken_in_pieces(rng, monkeypatch):
@@ -145,14 +145,16 @@ def test_large_products_are_taken_in_pieces(rng, monkeypatch):
     assert net._times(rows, matrix, out) is out and np.isfinite(out).all()
 
 
-def test_the_arrays_that_come_with_framelet_are_small_and_finite():
-    with np.load(net.WEIGHTS) as file:
+@pytest.mark.parametrize("width", net.WEIGHTS)
+def test_the_arrays_that_come_with_framelet_are_small_and_finite(width):
+    with np.load(net.WEIGHTS[width]) as file:
         arrays = {name: file[name] for name in file.files}
     numbers = [array for array in arrays.values() if array.dtype.kind == "f"]
     assert all(np.isfinite(array).all() for array in numbers)
     assert sum(array.size for array in numbers) < 50_000
-    assert net.WEIGHTS.stat().st_size < 250_000
+    assert net.WEIGHTS[width].stat().st_size < 150_000
     assert (arrays["face_scale"] > 0).all() and (arrays["edge_scale"] > 0).all()
+    assert len(arrays["repeats"]) == net.N_LAYERS
 
 
 PROGRAM = """
@@ -171,7 +173,8 @@ core.prepare(mesh)
 assert not calls, calls
 for _ in range(3):
     core.denoise(mesh)
-assert len(calls) == 1, calls
+# Which net is right, and that net.
+assert len(calls) == 2, calls
 """
 
 
