@@ -140,8 +140,9 @@ def face_pairs_of(mesh, pairs):
 
 
 def slow_features(mesh, means, scales, taken=None, log_strength=0.0, least_island=500):
-    """Return the inputs of the net: of the faces of the graph, of pairs in the order of `pairs_of`, and what is
-    known of the island of each face.
+    """Return the inputs of the net.
+
+    Those of the faces of the graph, of pairs in the order of `pairs_of`, and of the island of each face.
     """
     normals, centroids, areas, length = scales
     pairs = pairs_of(mesh)

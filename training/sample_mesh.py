@@ -91,6 +91,14 @@ class SampleMesh:
         rings = self.engine.rings
         return rings.outward(rings.averaged(rings.inward(field[:, None].copy()), n_averages))[:, 0]
 
+    def smoothed(self, n_averages: int) -> SampleMesh:
+        """Return the mesh after a low-pass L_k of its positions."""
+        rings = self.engine.rings
+        rows = np.zeros((self.n_vertices, 4), np.float32)
+        rows[:, :3] = rings.inward(np.ascontiguousarray(self.vertices, np.float32))
+        rows += rings.low_passes(rows.copy(), (n_averages,))[0]
+        return SampleMesh(self.surface.with_vertices(rings.outward(rows)[:, :3].astype(np.float64)))
+
     def direction(self, rng: np.random.Generator) -> NDArray[np.float64]:
         """Return a coordinate along a random direction, shape (N,), about -1 to 1."""
         place = self.vertices @ self.rotation(rng)[:, 0]

@@ -33,8 +33,9 @@ LOSS_FLOOR = 0.004
 AVERAGE = 0.998
 """Decay of the running mean of the weights, which is what is exported; less at the start."""
 
-LESS_RELIEF = 0.4
-"""Share of the draws of organic shapes that are left out: with more, all that is wide is taken for relief."""
+RELIEF = 0.15
+"""Share of the shapes with relief that keep all of it. It is finer than that of real meshes, which are
+sampled until nothing is finer than a few edges; with all of it wide noise is taken for relief."""
 
 SCANS = 2
 """How often range images are drawn for once that others are: what scanners make is what has to be right."""
@@ -125,6 +126,14 @@ def validate(net: Net, draws: Sequence[Draw]) -> tuple[float, str]:
     return float(np.mean([value for values in by_kind.values() for value in values])), text
 
 
+def load(path: Path, rng: np.random.Generator) -> SampleMesh:
+    """Read a mesh; most of those with relief are made smooth first."""
+    mesh = SampleMesh.load(path)
+    if family_of(int(path.stem)) in ("organic", "islands", "terrain") and rng.random() > RELIEF:
+        return mesh.smoothed(round(noise.log_uniform(rng, 2, 12)))
+    return mesh
+
+
 def keep_memory() -> None:
     """Have the allocator keep freed memory: fresh memory costs a quarter of the time of a step."""
     if sys.platform.startswith("linux"):
@@ -182,9 +191,9 @@ def train(
     paths = sorted(shapes.glob("*.npz"))
     held_out = [path for path in paths if int(path.stem) % 20 == 0]
     meshes: dict[Path, SampleMesh] = {}
-    held = [SampleMesh.load(path) for path in held_out[:14]]
-    net, average = Net(REPEATS[width]), Net(REPEATS[width])
     trial = np.random.default_rng(1000)
+    held = [load(path, trial) for path in held_out[:14]]
+    net, average = Net(REPEATS[width]), Net(REPEATS[width])
     validation = [Draw(held[number % len(held)], trial, width) for number in range(42)]
     optimizer = torch.optim.Adam(net.parameters(), lr=LARGEST_RATE, betas=(0.9, 0.98))
     elapsed, step = 0.0, 0
@@ -213,10 +222,8 @@ def train(
             paths = [path for path in sorted(shapes.glob("*.npz")) if int(path.stem) % 20]
             paths += [path for path in paths if family_of(int(path.stem)) == "scanned"] * (SCANS - 1)
         path = paths[rng.integers(len(paths))]
-        if family_of(int(path.stem)) == "organic" and rng.random() < LESS_RELIEF:
-            continue
         if path not in meshes:
-            meshes[path] = SampleMesh.load(path)
+            meshes[path] = load(path, rng)
         mesh = meshes[path]
         if mesh.engine.graph.n_faces > MOST_FACES:
             continue

@@ -12,8 +12,7 @@ from numpy.typing import NDArray
 from torch import nn
 
 from .net import Net
-from .sample_mesh import SampleMesh
-from .train import MOST_FACES, Draw, both_passes
+from .train import MOST_FACES, Draw, both_passes, load
 
 HIDDEN = 12
 N_STEPS = 1500
@@ -36,7 +35,7 @@ def compare(
     paths = sorted(shapes.glob("*.npz"))
     quantiles, gains = [], []
     while len(gains) < n_draws:
-        mesh = SampleMesh.load(paths[rng.integers(len(paths))])
+        mesh = load(paths[rng.integers(len(paths))], rng)
         if mesh.engine.graph.n_faces > MOST_FACES:
             continue
         draw = Draw(mesh, rng, ("fine", "wide")[len(gains) % 2])

@@ -122,7 +122,7 @@ class Net:
         return self.begun(scales, features, graph).normals(tick)
 
     def shifts(self, context: Matrix) -> list[Matrix]:
-        """Return what is known of islands, shape (I, N_CONTEXT), as biases of state and layers, shape (I, n)."""
+        """Make biases of state and layers, shape (I, n), of the context of islands, shape (I, N_CONTEXT)."""
         known = (context - self.face_mean[-N_CONTEXT:]) / self.face_scale[-N_CONTEXT:]
         hidden = np.maximum(np.clip(known, -CLIP, CLIP) @ self.context + self.context_bias, 0)
         sizes = [HIDDEN, *[HIDDEN, N_SCALES, N_SCALES] * len(self.layers)]

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Whether noise is wide: shared by neighbors, as scanners and voxels make it, or new at each vertex.
 
-Fine relief and wide noise look alike, and one net for both is too timid for the one or too bold for the other.
-So there are two, and this says which one will be closer to the clean surface: a regression, learned from
-runs of both, on the quantiles of energies over an island.
+Fine relief and wide noise look alike, and one net for both is too timid for the one or too bold for the
+other. So there are two, and this says which one will be closer to the clean surface: a regression, learned
+from runs of both, on the quantiles of energies over an island.
 """
 
 from __future__ import annotations

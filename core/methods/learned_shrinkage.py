@@ -60,7 +60,7 @@ def shrink_normals(problem: Problem) -> Solution:
     fitted, n_passes, is_stopped = points, 0, False
     try:
         if amount > 0.0 and engine.graph.n_faces:
-            # Steps of voxels and terraces, which are wide noise, are flat and smooth as well: nothing is still.
+            # Steps of voxels and terraces, which are wide noise, are flat and smooth: nothing is still.
             fitted = run.next_pass(points) if settings.noise == "WIDE" else run.first_pass()
             n_passes = 1
             while n_passes < settings.passes and run.is_free.any():
@@ -97,7 +97,7 @@ class _Run:
         return n_still / max(int(np.count_nonzero(self._is_movable)), 1)
 
     def first_pass(self) -> NDArray[np.float32]:
-        """Return the positions, shape (3, N), after a pass that also finds out what is wide and what is still."""
+        """Return the positions, shape (3, N), after a pass that also finds what is wide and what is still."""
         moved = self._fitted(self._normals(self.points, None, is_first=True))
         is_clean = clean_places(
             self.points,

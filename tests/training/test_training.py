@@ -15,7 +15,8 @@ from training.net import Net  # noqa: E402
 from training.sample_mesh import SampleMesh  # noqa: E402
 from training.shapes.catalog import family_of, make  # noqa: E402
 from training.shapes.mesh import condition  # noqa: E402
-from training.train import Draw, both_passes, standardize, train  # noqa: E402
+from training.train import REPEATS, Draw, both_passes, standardize, train  # noqa: E402
+from training.width import compare, fit  # noqa: E402
 
 
 @pytest.fixture(scope="module")
@@ -27,8 +28,8 @@ def meshes(shapes):
 def net(meshes):
     torch.manual_seed(0)
     rng = np.random.default_rng(0)
-    net = Net()
-    standardize(net, [Draw(mesh, rng) for mesh in meshes])
+    net = Net(REPEATS["wide"])
+    standardize(net, [Draw(mesh, rng, "wide") for mesh in meshes])
     return net
 
 
@@ -45,12 +46,11 @@ def test_meshes_depend_on_their_numbers_only():
 def test_all_kinds_of_noise_are_what_they_say(meshes):
     rng = np.random.default_rng(1)
     for mesh in meshes:
-        for kind in noise.MIXTURE:
+        for kind in {*noise.MIXTURES["fine"], *noise.MIXTURES["wide"]}:
             if kind is noise.voxels and mesh.voxels is None:
                 continue
-            positions, width = kind(mesh, rng)
+            positions = kind(mesh, rng)
             assert np.isfinite(positions).all()
-            assert -1 <= width <= 1
             moved = np.linalg.norm(positions - mesh.vertices, axis=1)
             if kind is noise.spikes:
                 assert np.median(moved) < 0.35 * np.max(mesh.local_edge)
@@ -63,11 +63,11 @@ def test_numpy_computes_what_pytorch_computes(meshes, net, tmp_path):
     net.export(tmp_path / "weights.npz", seed="0")
     with np.load(tmp_path / "weights.npz") as file:
         assert str(file["seed"]) == "0"
-        fast = NumpyNet({name: file[name] for name in file.files if file[name].dtype.kind == "f"})
+        fast = NumpyNet({name: file[name] for name in file.files if file[name].dtype.kind in "fi"})
     rng = np.random.default_rng(2)
     sizes = set()
     for mesh in meshes:
-        draw = Draw(mesh, rng)
+        draw = Draw(mesh, rng, "wide")
         with torch.no_grad():
             expected = net(*draw.described(), draw.engine).numpy().T
         found = fast.normals(*draw.described(), draw.engine.graph)
@@ -77,11 +77,17 @@ def test_numpy_computes_what_pytorch_computes(meshes, net, tmp_path):
 
 
 def test_gradients_are_differences_of_the_loss(meshes, net):
-    draw = Draw(meshes[0], np.random.default_rng(3))
+    draw = Draw(meshes[0], np.random.default_rng(3), "wide")
     scales, features = draw.described()
     draw.loss(net(scales, features, draw.engine)).backward()
     parameters = dict(net.named_parameters())
-    for name in ("layers.0.from_faces.weight", "layers.3.gains.weight", "layers.5.channels", "enter.weight"):
+    for name in (
+        "layers.0.from_faces.weight",
+        "layers.3.gains.weight",
+        "layers.5.channels",
+        "enter.weight",
+        "shift.bias",
+    ):
         parameter = parameters[name]
         direction = parameter.grad / parameter.grad.norm()
         losses = []
@@ -95,7 +101,7 @@ def test_gradients_are_differences_of_the_loss(meshes, net):
 
 
 def test_a_run_learns_and_goes_on_where_it_was_cut_off(shapes, meshes, net, tmp_path):
-    arguments = (shapes, tmp_path / "run")
+    arguments = ("fine", shapes, tmp_path / "run")
     target = tmp_path / "weights.npz"
     train(*arguments, 8, 1, target)
     with np.load(target) as file:
@@ -103,11 +109,26 @@ def test_a_run_learns_and_goes_on_where_it_was_cut_off(shapes, meshes, net, tmp_
     train(*arguments, 30, 1, target, provenance={"seed": "1"})
     steps = [int(step) for step in re.findall(r"step (\d+)", (tmp_path / "run" / "log.txt").read_text())]
     assert steps == sorted(steps)
-    trained = Net()
+    trained = Net(REPEATS["fine"])
     with np.load(target) as file:
         assert n_first < int(str(file["steps"])) == steps[-1]
         trained.load_state_dict({name: torch.from_numpy(file[name]) for name in trained.state_dict()})
-    draws = [Draw(mesh, np.random.default_rng(4)) for mesh in meshes]
+    draws = [Draw(mesh, np.random.default_rng(4), "fine") for mesh in meshes]
     with torch.no_grad():
         losses = [np.mean([both_passes(own, draw, (1, 1)) for draw in draws]) for own in (net, trained)]
     assert losses[1] < losses[0] - 0.2
+
+
+def test_the_choice_is_learned_from_runs_of_both_nets(shapes, net, tmp_path):
+    """Two nets, one of which is better where the first quantile is large, by what is made up."""
+    quantiles, gains = compare({"fine": net, "wide": net}, shapes, 2, 1)
+    assert quantiles.shape == (2, 16) and np.isfinite(quantiles).all() and not gains.any()
+    rng = np.random.default_rng(5)
+    quantiles = rng.normal(size=(1500, 16)).astype(np.float32)
+    gains = (0.3 * np.sign(quantiles[:, 0]) + 0.05 * rng.normal(size=1500)).astype(np.float32)
+    gain, best = fit(quantiles, gains, tmp_path / "width.npz")
+    assert 0.9 * best < gain <= best
+    with np.load(tmp_path / "width.npz") as file:
+        hidden = np.tanh((quantiles - file["mean"]) / file["scale"] @ file["enter"] + file["enter_bias"])
+        chosen = hidden @ file["leave"] > file["least"]
+    assert (chosen == (gains > 0)).mean() > 0.9
