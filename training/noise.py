@@ -60,7 +60,7 @@ def directions(mesh: SampleMesh, rng: np.random.Generator) -> NDArray[np.float64
 def correlated(mesh: SampleMesh, rng: np.random.Generator) -> NDArray[np.float64]:
     """Smooth over 1 to 12 rings, most of it over few; half of it together with white noise."""
     n_averages = round(log_uniform(rng, 1, 60 if rng.random() < 0.4 else 6))
-    sigma = log_uniform(rng, 0.03, 0.35) * min(1.0 + 0.03 * n_averages, 2.0)
+    sigma = log_uniform(rng, 0.06, 0.4) * min(1.0 + 0.03 * n_averages, 2.0)
     heights = sigma * _wide(mesh, rng, n_averages)
     if rng.random() < 0.5:
         heights += log_uniform(rng, 0.02, 0.3) * rng.normal(size=mesh.n_vertices)

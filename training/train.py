@@ -33,7 +33,7 @@ LOSS_FLOOR = 0.004
 AVERAGE = 0.998
 """Decay of the running mean of the weights, which is what is exported; less at the start."""
 
-RELIEF = 0.15
+RELIEF = 0.05
 """Share of the shapes with relief that keep all of it. It is finer than that of real meshes, which are
 sampled until nothing is finer than a few edges; with all of it wide noise is taken for relief."""
 
@@ -130,7 +130,7 @@ def load(path: Path, rng: np.random.Generator) -> SampleMesh:
     """Read a mesh; most of those with relief are made smooth first."""
     mesh = SampleMesh.load(path)
     if family_of(int(path.stem)) in ("organic", "islands", "terrain") and rng.random() > RELIEF:
-        return mesh.smoothed(round(noise.log_uniform(rng, 2, 12)))
+        return mesh.smoothed(round(noise.log_uniform(rng, 3, 24)))
     return mesh
 
 
