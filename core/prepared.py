@@ -121,6 +121,7 @@ class Prepared:
             transform=self.transform,
             engine=self.engine,
             callback=callback,
+            movable=placed.movable,
         )
         if placed.feature_edges is None:
             return problem

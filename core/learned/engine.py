@@ -20,6 +20,7 @@ from ..mesh.surface_mesh import SurfaceMesh
 from .face_graph import FACES_AT_ONCE, FaceGraph, Polygons
 from .features import Features, find_features
 from .islands import faces_of_islands, find_islands
+from .measured import Measured, find_measured
 from .scales import Scales, find_scales
 from .screened_fit import ScreenedFit
 from .taken import Taken, find_taken
@@ -104,18 +105,36 @@ class FaceEngine:
         taken: Taken | None = None,
         log_strength: float = 0.0,
         width: float | NDArray[np.float32] = 0.0,
+        measured: Measured | None = None,
     ) -> tuple[Scales, Features]:
         """Return scales and features of positions, shape (3, N), float32; see `find_features`."""
         scales = find_scales(points, self.graph, self.rings)
         return scales, find_features(
-            scales, self.graph, self.rings, self.at_vertex, self.island, taken, log_strength, width
+            scales,
+            self.graph,
+            self.rings,
+            self.at_vertex,
+            self.island,
+            taken,
+            log_strength,
+            width,
+            measured,
         )
 
-    def taken(self, before: NDArray[np.float32], after: NDArray[np.float32]) -> Taken:
-        """Return what was taken away between two positions, shape (3, N)."""
-        return find_taken(self.offsets(before, after), self.rings)
+    def measured(self, movable: NDArray[np.bool_]) -> Measured | None:
+        """Return where noise is measured if these vertices may move, shape (N,); None for everywhere."""
+        return find_measured(movable, self.graph, self.island)
 
-    def wide_parts(self, taken: Taken, unit: NDArray[np.float32]) -> NDArray[np.float32]:
+    def taken(
+        self, before: NDArray[np.float32], after: NDArray[np.float32], measured: Measured | None = None
+    ) -> Taken:
+        """Return what was taken away between two positions, shape (3, N)."""
+        movable = None if measured is None else measured.movable
+        return find_taken(self.offsets(before, after), self.rings, movable)
+
+    def wide_parts(
+        self, taken: Taken, unit: NDArray[np.float32], measured: Measured | None = None
+    ) -> NDArray[np.float32]:
         """Return 1 for the faces of islands whose noise is wide, else 0, shape (F,).
 
         `unit`, shape (N,), are local edge lengths.
@@ -123,10 +142,11 @@ class FaceEngine:
         corners = np.concatenate([group.corners[0] for group in self.graph.groups])
         correlation = taken.correlation[corners]
         common = (taken.strength / unit)[corners] * np.sqrt(np.maximum(correlation, 0))
-        parts = [slice(None)] if self.island is None else faces_of_islands(self.island)
+        parts = [np.arange(len(corners))] if self.island is None else faces_of_islands(self.island)
         result = np.zeros(len(corners), np.float32)
         for part in parts:
-            is_wide = np.median(correlation[part]) > WIDE_FROM and np.median(common[part]) > WEAK
+            own = part if measured is None else measured.of(part)
+            is_wide = np.median(correlation[own]) > WIDE_FROM and np.median(common[own]) > WEAK
             result[part] = is_wide
         return result
 

@@ -18,6 +18,7 @@ from ..averages.means import Means
 from ..averages.ring_means import RingMeans
 from .face_graph import FaceGraph, Polygons
 from .islands import faces_of_islands
+from .measured import Measured
 from .scales import N_SCALES, Scales
 from .taken import Taken
 
@@ -87,6 +88,7 @@ def find_features(
     taken: Taken | None = None,
     log_strength: float = 0.0,
     width: float | NDArray[np.float32] = 0.0,
+    measured: Measured | None = None,
 ) -> Features:
     """Describe a surface for the net.
 
@@ -108,6 +110,8 @@ def find_features(
         Logarithm of Strength: added to the logarithms of fine jumps, and half of it to those of heights.
     width : float or ndarray, shape (F,)
         What is expected of the noise: 1 wide, -1 fine, 0 nothing.
+    measured : Measured, optional
+        Whose faces count for quantiles; by default all.
     """
     n_bands = N_SCALES - 1
     pairs = np.zeros((graph.n_pairs + 1, N_EDGE), np.float32)
@@ -182,7 +186,7 @@ def find_features(
 
     graph.for_faces(energies_at)
     widths = np.asarray(width, np.float32)
-    quantiles = _quantiles(spread, is_flat, island, log_strength)
+    quantiles = _quantiles(spread, is_flat, island, log_strength, measured)
     at_faces = rings.inward(at_vertex.outward(at_vertex.mean(spread)))
     at_faces = rings.outward(rings.averaged(at_faces, SPREAD_AVERAGES))
 
@@ -230,13 +234,20 @@ def _quantiles(
     is_flat: NDArray[np.bool_],
     island: NDArray[np.int32] | None,
     log_strength: float,
+    measured: Measured | None,
 ) -> NDArray[np.float32]:
-    """Return quantiles over the island of each face, (F or 1, N_GLOBAL - 1); flat faces do not count."""
+    """Return quantiles over the island of each face, (F or 1, N_GLOBAL - 1).
+
+    Flat faces do not count, nor do those where nothing is measured.
+    """
     if island is None:
+        if measured is not None:
+            energies, is_flat = energies[measured.faces], is_flat[measured.faces]
         return _quantiles_of(energies, is_flat, log_strength)[None]
     result = np.empty((len(island), N_GLOBAL - 1), np.float32)
     for part in faces_of_islands(island):
-        result[part] = _quantiles_of(energies[part], is_flat[part], log_strength)
+        counted = part if measured is None else measured.of(part)
+        result[part] = _quantiles_of(energies[counted], is_flat[counted], log_strength)
     return result
 
 

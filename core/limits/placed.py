@@ -145,6 +145,8 @@ def place(region: Region, surface: SurfaceMesh, movable: NDArray[np.bool_] | Non
         movable = None if movable is None else weld.least(movable)
         weights = None if weights is None else weld.least(weights)
         edges = None if edges is None else weld.vertex[edges]
+    if movable is not None and movable.all():
+        movable = None
     if movable is not None and not movable.any():
         raise RegionError(
             "No vertex may move: those that are selected have weight 0, or lie on others that may not move."

@@ -28,7 +28,7 @@ def bilateral_filter(problem: Problem) -> Solution:
     ----------
     problem : Problem
         With the settings `iterations`, `tolerance`, `sigma_c`, and `sigma_s`, where 0 stands for the standard
-        deviation of the heights on the noisy mesh.
+        deviation of the heights on the noisy mesh, around the vertices that may move.
 
     Returns
     -------
@@ -52,7 +52,7 @@ def bilateral_filter(problem: Problem) -> Solution:
     for iteration in range(1, settings.iterations + 1):
         normals = np.ascontiguousarray(vertex_normals(surface.with_vertices(points.T)).T, dtype)
         if sigma_s == 0.0:
-            sigma_s = _height_deviation(points, normals, pairs, settings.sigma_c, blocks)
+            sigma_s = _height_deviation(points, normals, pairs, settings.sigma_c, blocks, problem.movable)
         following = points.copy()
 
         def kernel(
@@ -102,11 +102,19 @@ def _height_deviation(
     pairs: list[_Pairs],
     sigma_c: float,
     blocks: Blocks,
+    movable: NDArray[np.bool_] | None,
 ) -> float:
-    """Return the standard deviation of the heights of all neighbors within 2 sigma_c."""
+    """Return the standard deviation of the heights of all neighbors within 2 sigma_c.
+
+    Only neighbors of `movable` vertices, shape (N,), count; None for all.
+    """
 
     def kernel(start: int, stop: int) -> NDArray[np.float64]:
-        squared, height = _offsets(points, normals, *pairs[start // blocks.block_size])
+        center, member = pairs[start // blocks.block_size]
+        if movable is not None:
+            is_counted = movable[center]
+            center, member = center[is_counted], member[is_counted]
+        squared, height = _offsets(points, normals, center, member)
         height = height[squared <= 4.0 * sigma_c**2].astype(np.float64)
         return np.array([len(height), height.sum(), (height * height).sum()])
 

@@ -67,7 +67,7 @@ def shrink_normals(problem: Problem) -> Solution:
             if settings.noise == "AUTO":
                 # Of usual strength, so that what is measured does not depend on it.
                 first = run.first_pass(0.0, 0.0)
-                width = engine.wide_parts(engine.taken(points, first), run.unit)
+                width = engine.wide_parts(engine.taken(points, first, run.measured), run.unit, run.measured)
                 if not width.any() and log_strength == 0.0:
                     fitted, n_passes = first, 1
                     run.skip()
@@ -82,7 +82,9 @@ def shrink_normals(problem: Problem) -> Solution:
         is_stopped = True
     if not run.is_free.any():
         n_passes = 0  # one was needed to find out that there is nothing to do
-    belief = find_belief(points, fitted, run.unit, engine, problem.edge, run.share_clean())
+    belief = find_belief(
+        points, fitted, run.unit, engine, problem.edge, run.share_clean(), measured=run.measured
+    )
     # Of a mesh that is clean already the lines, which were smoothed before, stay as well.
     start = problem.given if belief.is_clean else noisy
     # The displacement is added, so that what did not move keeps its bits in any precision.
@@ -101,6 +103,7 @@ class _Run:
         self._is_movable[problem.constraints.pinned] = False
         self.is_free = self._is_movable.copy()
         self.unit = np.ones(points.shape[1], np.float32)
+        self.measured = None if problem.movable is None else engine.measured(problem.movable)
 
     def share_clean(self) -> float:
         """Return the share of the vertices that may move and stay because they are clean."""
@@ -109,8 +112,8 @@ class _Run:
 
     def first_pass(self, log_strength: float, width: float | NDArray[np.float32]) -> NDArray[np.float32]:
         """Return the positions, shape (3, N), after a pass that also finds out what is still."""
-        scales, features = self.engine.describe(self.points, None, log_strength, width)
-        self.is_free &= ~flat_vertices(self.points, scales, self.engine.graph)
+        scales, features = self.engine.describe(self.points, None, log_strength, width, self.measured)
+        self.is_free &= ~flat_vertices(self.points, scales, self.engine.graph, self.measured)
         moved = self._fitted(scales, features)
         is_clean = clean_places(
             self.points,
@@ -119,9 +122,12 @@ class _Run:
             self.unit,
             self.engine.rings,
             self._problem.blocks,
+            self.measured,
         )
         offsets = self.engine.offsets(self.points, moved) / self.unit
-        self.is_free &= ~hardly_moved(offsets, is_clean, self.is_free, self.engine.rings)
+        self.is_free &= ~hardly_moved(
+            offsets, is_clean, self.is_free, self.engine.rings, self._problem.movable
+        )
         moved[:, ~self.is_free] = self.points[:, ~self.is_free]
         return moved
 
@@ -129,8 +135,10 @@ class _Run:
         self, fitted: NDArray[np.float32], log_strength: float, width: float | NDArray[np.float32]
     ) -> NDArray[np.float32]:
         """Return the positions, shape (3, N), after a pass that is guided by fitted ones."""
-        taken = self.engine.taken(self.points, fitted) if fitted is not self.points else None
-        return self._fitted(*self.engine.describe(fitted, taken, log_strength, width))
+        taken = None
+        if fitted is not self.points:
+            taken = self.engine.taken(self.points, fitted, self.measured)
+        return self._fitted(*self.engine.describe(fitted, taken, log_strength, width, self.measured))
 
     def _fitted(self, scales: Scales, features: Features) -> NDArray[np.float32]:
         """Return the vertices, shape (3, N), that fit the normals that the net wants."""

@@ -30,7 +30,7 @@ def shrink_positions(problem: Problem) -> Solution:
     """
     settings, noise = problem.settings, None
     if settings.tuning == "NOISE":
-        noise = estimate_noise(problem.surface, problem.connectivity, problem.blocks)
+        noise = estimate_noise(problem.surface, problem.connectivity, problem.blocks, problem.movable)
         settings = tuned(settings, choose_frame(settings.frame, problem.connectivity), noise)
     if settings.lambda_ == 0.0:  # nothing is shrunk, so nothing moves
         return Solution(problem.noisy, settings.iterations, False, settings, noise)

@@ -55,6 +55,8 @@ class Problem:
         See `Callback`.
     line_vertices : int
         Number of vertices on feature lines.
+    movable : ndarray, shape (N,), bool, or None
+        Vertices that may move, on which noise is measured; None for all.
     """
 
     noisy: NDArray[np.floating]
@@ -69,6 +71,7 @@ class Problem:
     engine: FaceEngine | None = None
     callback: Callback | None = None
     line_vertices: int = 0
+    movable: NDArray[np.bool_] | None = None
 
 
 class Solution(NamedTuple):
