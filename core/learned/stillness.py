@@ -119,7 +119,7 @@ def hardly_moved(
     strength = np.sqrt(squares[rest].mean(dtype=np.float64))
     n_vertices = len(is_clean)
     if movable is not None:
-        n_vertices, is_clean = np.count_nonzero(movable), is_clean & movable
+        n_vertices, is_clean = int(np.count_nonzero(movable)), is_clean & movable
     is_mostly_clean = np.count_nonzero(is_clean) > MOSTLY_CLEAN * n_vertices
     cut = np.sqrt(np.minimum(squares[rest], CUT_OFF**2).mean(dtype=np.float64))
     limit = HARDLY if np.count_nonzero(rest) > FEW_LEFT * n_vertices else 2 * HARDLY
