@@ -25,6 +25,7 @@ from .mesh.checks import check_positions, check_surface
 from .mesh.connectivity import Connectivity, connect
 from .mesh.locality import Reordering, is_scattered, reorder, spatial_order
 from .mesh.normalization import normalize
+from .mesh.spikes import without_spikes
 from .mesh.surface_mesh import SurfaceMesh
 from .methods.problem import Callback, Problem
 from .methods.shrinkage import SEPARABLE
@@ -106,20 +107,25 @@ class Prepared:
         constraints = find_constraints(
             self.ordered, self.connectivity, settings, placed.movable, self.noisy.dtype, self.corners
         )
-        given = self.noisy
+        given, surface, engine = self.noisy, self.ordered, self.engine
+        if placed.flatten_spikes:
+            surface = without_spikes(surface, constraints.pinned)
+            motion = (surface.vertices.astype(np.float64) - self.ordered.vertices).T / self.edge
+            given = given + motion.astype(given.dtype)
+            engine = None if engine is None else engine.placed(surface, self.connectivity)
         if placed.straighten_borders:
-            given, constraints = self._with_straight_borders(constraints)
+            given, constraints = self._with_straight_borders(given, constraints)
         problem = Problem(
             noisy=given,
             given=given,
-            surface=self.ordered,
+            surface=surface,
             connectivity=self.connectivity,
             edge=self.edge,
             settings=settings,
             constraints=constraints,
             blocks=blocks,
             transform=self.transform,
-            engine=self.engine,
+            engine=engine,
             callback=callback,
             movable=placed.movable,
         )
@@ -135,13 +141,15 @@ class Prepared:
             line_vertices=len(lines.vertices),
         )
 
-    def _with_straight_borders(self, constraints: Constraints) -> tuple[NDArray[np.floating], Constraints]:
+    def _with_straight_borders(
+        self, given: NDArray[np.floating], constraints: Constraints
+    ) -> tuple[NDArray[np.floating], Constraints]:
         """Return the positions with smooth borders, and constraints that keep what was moved there."""
         curves = find_curves(self.connectivity.boundary_neighbors)
         stays = np.zeros(self.noisy.shape[1], bool)
         stays[constraints.pinned] = True
-        motion = straightened(self.noisy, curves, stays).astype(self.noisy.dtype)
-        points = self.noisy.copy()
+        motion = straightened(given, curves, stays).astype(given.dtype)
+        points = given.copy()
         points[:, curves.vertices] += motion
         return points, constraints.with_pinned(curves.vertices[motion.any(axis=0)])
 

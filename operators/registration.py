@@ -20,6 +20,7 @@ from .heat_map import OBJECT_OT_framelet_heat_map, OBJECT_OT_framelet_hide_color
 from .live_preview import OBJECT_OT_framelet_apply_preview, OBJECT_OT_framelet_preview
 from .machine import available_processors
 from .mesh_io import mesh_facts
+from .pick_face_set import OBJECT_OT_framelet_pick_face_set
 from .properties.band_settings import FrameletBands, FrameletEqualizer
 from .properties.presets import OBJECT_OT_framelet_preset_add
 from .properties.settings import FrameletSettings
@@ -62,6 +63,7 @@ classes = (
     OBJECT_OT_framelet_heat_map,
     OBJECT_OT_framelet_hide_colors,
     OBJECT_OT_framelet_preset_add,
+    OBJECT_OT_framelet_pick_face_set,
     *edit_modifier.classes,
     *outliers.classes,
 )

@@ -41,6 +41,8 @@ class Placed:
         Other numbers of `surface`, by which the arrays above go.
     straighten_borders : bool
         Whether borders become smooth curves.
+    flatten_spikes : bool
+        Whether spikes come down first.
     """
 
     original: SurfaceMesh
@@ -51,6 +53,7 @@ class Placed:
     feature_edges: NDArray[np.integer] | None
     reordering: Reordering | None = None
     straighten_borders: bool = False
+    flatten_spikes: bool = False
 
     def renumbered(self, reordering: Reordering | None) -> Placed:
         """Return the same with the numbers of a reordering of `surface`, if there is one."""
@@ -152,7 +155,14 @@ def place(region: Region, surface: SurfaceMesh, movable: NDArray[np.bool_] | Non
             "No vertex may move: those that are selected have weight 0, or lie on others that may not move."
         )
     return Placed(
-        surface, worked, weld, movable, weights, edges, straighten_borders=region.straighten_borders
+        surface,
+        worked,
+        weld,
+        movable,
+        weights,
+        edges,
+        straighten_borders=region.straighten_borders,
+        flatten_spikes=region.flatten_spikes,
     )
 
 

@@ -135,6 +135,8 @@ def region_of(
         if weights is None:
             raise ValueError(f"It has no vertex group ‘{options.vertex_group}’; choose one that it has.")
         weights = weights[part.vertices]
+    if options.face_set:
+        raise ValueError("It has no face sets; leave out --face-set.")
     edge = mean_edge_length(surface) if options.limit == "EDGES" else 0.0
     region = options.region(edge, 1.0, weights, border=border_vertices(surface))
     if opened.file.always_welded and not region.weld_distance:

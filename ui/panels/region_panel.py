@@ -23,6 +23,9 @@ class VIEW3D_PT_framelet_mask(FrameletPanel, bpy.types.Panel):
         settings = context.scene.framelet
         column = settings_column(self.layout)
         _draw_group(column, settings, context.active_object)
+        row = column.row(align=True)
+        row.prop(settings, "face_set")
+        row.operator("object.framelet_pick_face_set", text="", icon="EYEDROPPER")
         column.prop(settings, "keep_mask")
         column.prop(settings, "keep_hidden")
 
@@ -42,6 +45,7 @@ class VIEW3D_PT_framelet_region(FrameletPanel, bpy.types.Panel):
         column.prop(settings, "boundary")
         if settings.boundary != "FIXED":
             column.prop(settings, "straighten_borders")
+        column.prop(settings, "flatten_spikes")
         column.separator()
         column.prop(settings, "limit")
         if settings.limit != "NONE":
