@@ -305,6 +305,10 @@ def begin_preview(obj: bpy.types.Object, settings: DenoiseSettings, options: Reg
     if obj.mode != "OBJECT":
         raise ValueError(f"‘{obj.name}’: the preview needs Object Mode; leave the mode first.")
     job = read_job(obj, settings, IN_PLACE, options, from_original=True)
+    if job.is_level:
+        raise ValueError(
+            f"‘{obj.name}’ has a Multires modifier, of which there is no preview; press Denoise instead."
+        )
     if obj.data.shape_keys is not None:
         raise ValueError(f"‘{obj.name}’ has shape keys, of which there is no preview; press Denoise.")
     n_vertices = job.surface.n_vertices

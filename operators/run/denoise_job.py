@@ -57,6 +57,8 @@ class DenoiseJob:
         Where the object is in the scene.
     cage : SurfaceMesh or None
         The mesh itself, if `surface` has what a modifier adds to it at the vertices that may not move.
+    is_level : bool
+        Whether `surface` is the finest level of a Multires modifier, and not the mesh.
     """
 
     name: str
@@ -71,6 +73,7 @@ class DenoiseJob:
     mirrors: tuple[Plane, ...] = ()
     origin: NDArray[np.float64] | None = None
     cage: SurfaceMesh | None = None
+    is_level: bool = False
 
     @property
     def base(self) -> SurfaceMesh:

@@ -15,6 +15,7 @@ from ..mesh_io.region_bridge import read_region
 from ..mesh_io.shape_keys import read_followers
 from ..modifier.displacement import stored_displacement
 from ..modifier.mirrors import read_mirrors
+from ..modifier.multires import find_multires, level_object
 from ..modifier.offsets import offset_of
 from ..modifier.recipes import DISPLACEMENT
 from ..modifier.stack import find_modifier
@@ -24,7 +25,7 @@ from ..properties.scene_units import linear_part, origin_of
 from . import run_memory
 from .assembly import assemble
 from .denoise_job import DenoiseJob, DenoiseOutcome, MeasuredReport, compute
-from .output import WrittenOutput, refusal, write_output
+from .output import WrittenOutput, refusal, write_level, write_output
 
 if TYPE_CHECKING:
     import bpy
@@ -71,6 +72,8 @@ def read_job(
     reason = refusal(obj, output)
     if reason is not None:
         raise ValueError(reason)
+    if find_multires(obj) is not None:
+        return _read_level(obj, settings, output, options or RegionOptions(), amount)
     surface, movable, region = read_region(obj, options or RegionOptions())
     job = DenoiseJob(
         obj.name,
@@ -94,6 +97,29 @@ def read_job(
 
         region = replace(region, max_displacement=options.max_edges * mean_edge_length(original))
     return replace(job, surface=original, region=region, present=surface)
+
+
+def _read_level(
+    obj: bpy.types.Object, settings: DenoiseSettings, output: str, options: RegionOptions, amount: float
+) -> DenoiseJob:
+    """Read what a run needs of the finest level of Multires."""
+    with level_object(obj) as level:
+        try:
+            surface, movable, region = read_region(level, options)
+        except ValueError as error:
+            raise ValueError(str(error).replace(f"‘{level.name}’", f"‘{obj.name}’")) from error
+    return DenoiseJob(
+        obj.name,
+        surface,
+        settings,
+        linear_part(obj),
+        movable,
+        region,
+        output,
+        amount,
+        origin=origin_of(obj),
+        is_level=True,
+    )
 
 
 def _with_kept_parts(obj: bpy.types.Object, job: DenoiseJob) -> DenoiseJob:
@@ -133,6 +159,8 @@ def write_outcome(obj: bpy.types.Object, job: DenoiseJob, outcome: DenoiseOutcom
         The object that has the result, the same or a new one, and what else was done.
     """
     output = job.output
+    if job.is_level:
+        return write_level(obj, job.surface, outcome.vertices, output, job.amount)
     if job.present is not None:
         output = run_memory.go_back(obj, output)
     followers = {} if output in {SHAPE_KEY, MODIFIER} else read_followers(obj)

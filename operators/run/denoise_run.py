@@ -140,9 +140,10 @@ class DenoiseRun:
         if self.state is not State.RUNNING:
             return self.state
         is_done = self._worker.is_done
-        in_detail = is_done or self._is_touched
-        self._is_touched = False
+        is_touched, self._is_touched = self._is_touched, False
         for mark, job in self._jobs:
+            # Reading a level of Multires counts as touching it, so that it is done once, at the end.
+            in_detail = is_done or (is_touched and not job.is_level)
             change = what_changed(mark, job.read, in_detail=in_detail)
             if change is not None:
                 self.drop(change)

@@ -58,6 +58,9 @@ TEXTS = {
     ),
     "No face of the active mesh is there": "Dort ist keine Fläche des aktiven Netzes",
     "Face set {number}": "Face-Set {number}",
+    "level {level} of Multires, the finest, was denoised": (
+        "Stufe {level} von Multires, die feinste, wurde entrauscht"
+    ),
     "Single vertices and small clusters far off their surroundings come down to them first; Automatic does so by itself, the other engines take them for shape": (
         "Einzelne Punkte und kleine Gruppen weit ab von ihrer Umgebung kommen zuerst auf diese herunter; Automatisch tut das von selbst, die anderen Verfahren halten sie für Form"
     ),
