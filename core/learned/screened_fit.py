@@ -37,6 +37,10 @@ NEEDLE = 0.1
 OUTLIER = 5.0
 """Displacement in units of what is usual around a vertex from which it is an outlier."""
 
+LEAST_USUAL = np.float32(0.01)
+"""What is usual at least, in local edge lengths: where there is no noise, displacements are of the size of
+rounding and curvature, and which of them stick out is chance."""
+
 OUTLIER_AVERAGES = 32
 """Averages over which the usual displacement is taken."""
 
@@ -66,6 +70,7 @@ class ScreenedFit:
         points: NDArray[np.float32],
         normals: NDArray[np.float32],
         is_free: NDArray[np.bool_] | None = None,
+        unit: NDArray[np.float32] | None = None,
     ) -> NDArray[np.float32]:
         """Return fitted positions.
 
@@ -77,6 +82,8 @@ class ScreenedFit:
             Wanted unit normals of the faces of the graph.
         is_free : ndarray, shape (N,), bool, optional
             Vertices that may move; all by default.
+        unit : ndarray, shape (N,), float32, optional
+            Local edge lengths; 1 by default.
 
         Returns
         -------
@@ -86,7 +93,7 @@ class ScreenedFit:
         if is_free is not None and is_free.all():
             is_free = None
         fitted = self._solved(points, normals, weights, STEPS, is_free)
-        start = self._without_outliers(points, fitted, is_free)
+        start = self._without_outliers(points, fitted, is_free, unit)
         if start is not None:
             fitted = self._solved(start, normals, weights, STEPS, is_free)
         unfolded = unfolded_points(fitted, normals, self._graph, self._rings, is_free)
@@ -236,7 +243,11 @@ class ScreenedFit:
         return result
 
     def _without_outliers(
-        self, points: NDArray[np.float32], fitted: NDArray[np.float32], is_free: NDArray[np.bool_] | None
+        self,
+        points: NDArray[np.float32],
+        fitted: NDArray[np.float32],
+        is_free: NDArray[np.bool_] | None,
+        unit: NDArray[np.float32] | None,
     ) -> NDArray[np.float32] | None:
         """Return positions to hold vertices at: those given, but outliers at the height of their rings.
 
@@ -248,8 +259,8 @@ class ScreenedFit:
         distance = np.sqrt((step * step).sum(axis=1))[:, None]
         usual = rings.averaged(distance.copy(), OUTLIER_AVERAGES)
         usual = rings.averaged(np.minimum(distance, 2 * usual), OUTLIER_AVERAGES)
-        # A mean of zeros is zero up to rounding only, also below.
-        is_out = (distance > np.maximum(OUTLIER * usual, 0))[:, 0]
+        least = LEAST_USUAL if unit is None else LEAST_USUAL * rings.inward(unit[:, None])
+        is_out = (distance > OUTLIER * np.maximum(usual, least))[:, 0]
         if is_free is not None:
             is_out &= rings.inward(is_free)
         if np.count_nonzero(is_out) < LEAST_OUTLIERS * len(is_out):

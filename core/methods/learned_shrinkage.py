@@ -148,7 +148,7 @@ class _Run:
         del scales, features  # a third of the memory
         normals = begun.normals(self._tick)
         del begun
-        moved = self.engine.fit.fit(self.points, normals, self.is_free)
+        moved = self.engine.fit.fit(self.points, normals, self.is_free, self.unit)
         self._problem.constraints.apply(moved, self.points)
         step = moved - self.points
         is_far = np.sqrt((step * step).sum(axis=0)) > FARTHEST * self.unit

@@ -202,3 +202,15 @@ def test_a_level_is_looked_at_once(sculpt, gate, no_thread_stays, monkeypatch):
     assert started.wait(60.0)
     assert started.tick() is State.READY
     assert len(looks) == 1
+
+
+def test_undo_takes_the_result_back(sculpt):
+    before = level(sculpt).vertices
+    bpy.ops.ed.undo_push(message="Before")
+    run()
+    after = level(sculpt).vertices
+    bpy.ops.ed.undo_push(message="Denoise")
+    bpy.ops.ed.undo()
+    np.testing.assert_allclose(level(bpy.data.objects["Mesh"]).vertices, before, atol=1e-6)
+    bpy.ops.ed.redo()
+    np.testing.assert_allclose(level(bpy.data.objects["Mesh"]).vertices, after, atol=1e-6)
