@@ -12,6 +12,7 @@ from bpy.app.translations import pgettext_tip as tip_
 from .denoise_report import report_written
 from .preview import targets
 from .preview.current_preview import end_preview
+from .properties.own_settings import remember_settings, shown_settings
 from .properties.region_settings import RegionMixin
 from .properties.region_values import as_typed, to_region_options
 from .properties.setting_values import all_values, fill, to_settings
@@ -132,7 +133,8 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, RegionMixin, bpy.ty
         fill(self, all_values(self))
         end_preview()
         if self.options.is_repeat:
-            context.scene.framelet.amount, context.scene.framelet.output = self.amount, self.output
+            settings_shown = shown_settings(context)
+            settings_shown.amount, settings_shown.output = self.amount, self.output
         try:
             self._run: DenoiseRun = begin_run(
                 targets.target_objects(context),
@@ -165,6 +167,10 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, RegionMixin, bpy.ty
             self.report({"ERROR"}, run.reason)
             return {"CANCELLED"}
         written = run.finish()
+        if self.options.is_invoke:
+            # The settings of the active object, which all were denoised with.
+            for obj in {each for item in written for each in (item.original, item.obj)}:
+                remember_settings(obj, self)
         if run.failures:
             self.report({"WARNING"}, " ".join(run.failures))
         report_written(self, context, written)

@@ -10,6 +10,7 @@ from bpy.app.translations import pgettext_n as n_
 from .denoise_report import report_written
 from .preview import targets
 from .preview.current_preview import current_preview, end_preview, start_preview
+from .properties.own_settings import settings_of
 from .run.current_run import IS_RUNNING, current_run
 from .window_events import cancels
 
@@ -95,7 +96,7 @@ class OBJECT_OT_framelet_apply_preview(bpy.types.Operator):
         session = current_preview()
         assert session is not None  # see `poll`
         try:
-            written = session.apply(context.scene.framelet.output)
+            written = session.apply(settings_of(session.find_object(), context.scene).output)
         except ValueError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}

@@ -40,6 +40,10 @@ def draw_preview(layout: bpy.types.UILayout) -> None:
             icon="SORTTIME" if is_busy else "HIDE_OFF",
             depress=True,
         )
-        row.operator(OBJECT_OT_framelet_apply_preview.bl_idname, icon="CHECKMARK")
+        # The bar takes the place of the button, so that no slider moves under the mouse.
+        if is_busy:
+            row.progress(factor=session.fraction, text=f"{session.fraction:.0%}")
+        else:
+            row.operator(OBJECT_OT_framelet_apply_preview.bl_idname, icon="CHECKMARK")
     if preview_message():
         layout.label(text=preview_message(), translate=False, icon="INFO")
