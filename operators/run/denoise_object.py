@@ -14,7 +14,9 @@ from ..mesh_io import custom_normals
 from ..mesh_io.region_bridge import read_region
 from ..mesh_io.shape_keys import read_followers
 from ..modifier.displacement import stored_displacement
+from ..modifier.inputs import get_input
 from ..modifier.mirrors import read_mirrors
+from ..modifier.node_groups import ON
 from ..modifier.offsets import offset_of
 from ..modifier.recipes import DISPLACEMENT
 from ..modifier.stack import find_modifier
@@ -59,7 +61,8 @@ def read_job(
     amount : float
         How much of what is moved is written.
     from_original : bool
-        Start from where the vertices were before the last run, if the mesh still is what that made.
+        Start from where the vertices were before the last run, if the mesh still is what that made. Else what
+        a modifier adds is a part of what is denoised.
 
     Raises
     ------
@@ -84,7 +87,7 @@ def read_job(
         mirrors=read_mirrors(obj),
         origin=origin_of(obj),
     )
-    job = _with_kept_parts(obj, job)
+    job = _with_modifier(obj, job, from_original)
     run = run_memory.last_run_of(obj, surface) if from_original else None
     if run is None:
         return job
@@ -96,17 +99,22 @@ def read_job(
     return replace(job, surface=original, region=region, present=surface)
 
 
-def _with_kept_parts(obj: bpy.types.Object, job: DenoiseJob) -> DenoiseJob:
-    """Leave what the modifier of a run before adds where this run may not move vertices.
+def _with_modifier(obj: bpy.types.Object, job: DenoiseJob, from_original: bool) -> DenoiseJob:
+    """Add what the modifier of a run before adds, where this run does not start from the original.
 
-    So parts of a mesh can be denoised one after the other.
+    With `from_original` that is where it may not move vertices, so that parts of a mesh can be denoised one
+    after the other. A modifier that is off shows the original.
     """
     modifier = find_modifier(obj, DISPLACEMENT)
+    if modifier is None:
+        return job
     stays = None if job.movable is None else ~job.movable
     if job.region is not None and job.region.weights is not None:
         still = job.region.weights == 0.0
         stays = still if stays is None else stays | still
-    if modifier is None or stays is None:
+    if not from_original and get_input(modifier, ON):
+        stays = slice(None)
+    if stays is None:
         return job
     added = stored_displacement(obj) if job.output == MODIFIER else offset_of(obj, DISPLACEMENT)
     assert added is not None  # there is a modifier

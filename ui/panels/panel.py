@@ -13,13 +13,11 @@ from bpy.app.translations import pgettext_n as n_
 
 from ...operators.denoise import OBJECT_OT_framelet_denoise
 from ...operators.mesh_io import mesh_facts
-from ...operators.modifier.recipes import DISPLACEMENT
-from ...operators.modifier.stack import find_modifier
 from ...operators.own_soon import begin_soon
 from ...operators.properties.own_settings import shown_settings
 from ...operators.properties.scene_units import range_text
 from ...operators.properties.setting_values import copy_settings, has_effect, is_replaced, write_quietly
-from ...operators.run.run_memory import known_side
+from ...operators.run.run_memory import shows_result
 from .layouts import FrameletPanel, draw_settings, draw_value, settings_column
 from .modifier_rows import draw_amount
 from .preset_panel import VIEW3D_PT_framelet_presets
@@ -105,10 +103,10 @@ def _draw_buttons(layout: bpy.types.UILayout, context: bpy.types.Context) -> Non
     settings, obj = shown_settings(context), context.active_object
     row = layout.row(align=True)
     row.scale_y = 1.8
-    is_again = known_side(obj) == "AFTER"
+    is_again = shows_result(obj)
     text = n_("Denoise Again", "Operator") if is_again else n_("Denoise", "Operator")
     copy_settings(settings, row.operator(OBJECT_OT_framelet_denoise.bl_idname, text=text, icon="MOD_SMOOTH"))
-    if is_again and find_modifier(obj, DISPLACEMENT) is None:
+    if is_again:
         operator = row.operator(OBJECT_OT_framelet_denoise.bl_idname, text="", icon="FORWARD")
         copy_settings(settings, operator)
         write_quietly(operator, "from_original", False)

@@ -147,7 +147,11 @@ TEXTS = {
     "The width that gets the last color, in edge lengths: larger makes all colors paler": (
         "Die Breite mit der letzten Farbe, in Kantenlängen: größer macht alle Farben blasser"
     ),
-    "{:.1f} % within": "{:.1f} % darin",
+    "{:.1f} % in this range": "{:.1f} % in diesem Bereich",
+    "Green: up to {tolerance}, {share:.3g} %": "Grün: bis {tolerance}, {share:.3g} %",
+    "What is at most this far off is green, as small enough; 0 leaves green out": (
+        "Was höchstens so weit abweicht, ist grün, da klein genug; 0 lässt Grün weg"
+    ),
     # Equalizer
     "Equalizer": "Equalizer",
     "Number of scales that have a gain: larger reaches coarser details": (
