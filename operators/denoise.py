@@ -38,7 +38,8 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, RegionMixin, bpy.ty
 
     from_original: bpy.props.BoolProperty(
         name="From the Original",
-        description="Where a mesh still is what the last run made, start from where its vertices were before",
+        description="Where a mesh still is what the last run made, start from where its vertices were "
+        "before; False, if given, starts from the result, also from that in a modifier",
         options={"SKIP_SAVE"},
     )
 
@@ -135,6 +136,7 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, RegionMixin, bpy.ty
         if self.options.is_repeat:
             settings_shown = shown_settings(context)
             settings_shown.amount, settings_shown.output = self.amount, self.output
+        is_given = self.properties.is_property_set("from_original")
         try:
             self._run: DenoiseRun = begin_run(
                 targets.target_objects(context),
@@ -142,7 +144,7 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, RegionMixin, bpy.ty
                 self.output,
                 to_region_options(self),
                 amount=as_typed(self.amount),
-                from_original=self.from_original,
+                from_original=self.from_original if is_given else None,
             )
             set_current(self._run)
         except ValueError as error:

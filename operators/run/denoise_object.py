@@ -43,7 +43,7 @@ def read_job(
     options: RegionOptions | None = None,
     *,
     amount: float = 1.0,
-    from_original: bool = False,
+    from_original: bool | None = None,
 ) -> DenoiseJob:
     """Read what a run needs of an object.
 
@@ -60,9 +60,9 @@ def read_job(
         What limits the run; by default selection and hidden vertices alone.
     amount : float
         How much of what is moved is written.
-    from_original : bool
-        Start from where the vertices were before the last run, if the mesh still is what that made. Else what
-        a modifier adds is a part of what is denoised.
+    from_original : bool or None
+        True starts from where the vertices were before the last run, if the mesh still is what that made;
+        False from its result, also from one in a modifier; None from the mesh itself.
 
     Raises
     ------
@@ -99,11 +99,11 @@ def read_job(
     return replace(job, surface=original, region=region, present=surface)
 
 
-def _with_modifier(obj: bpy.types.Object, job: DenoiseJob, from_original: bool) -> DenoiseJob:
-    """Add what the modifier of a run before adds, where this run does not start from the original.
+def _with_modifier(obj: bpy.types.Object, job: DenoiseJob, from_original: bool | None) -> DenoiseJob:
+    """Add what the modifier of a run before adds, where this run does not start from the mesh itself.
 
-    With `from_original` that is where it may not move vertices, so that parts of a mesh can be denoised one
-    after the other. A modifier that is off shows the original.
+    That is where it may not move vertices, so that parts of a mesh can be denoised one after the other; and
+    all over where it continues from the result. A modifier that is off shows no result.
     """
     modifier = find_modifier(obj, DISPLACEMENT)
     if modifier is None:
@@ -112,7 +112,7 @@ def _with_modifier(obj: bpy.types.Object, job: DenoiseJob, from_original: bool) 
     if job.region is not None and job.region.weights is not None:
         still = job.region.weights == 0.0
         stays = still if stays is None else stays | still
-    if not from_original and get_input(modifier, ON):
+    if from_original is False and get_input(modifier, ON):
         stays = slice(None)
     if stays is None:
         return job
