@@ -138,6 +138,9 @@ class FrameletReport(BeliefMixin, bpy.types.PropertyGroup):
     parameters: StringProperty(
         name="Parameters", description="What was taken from the measured noise; empty if nothing was"
     )
+    hints: StringProperty(
+        name="Hints", description="What made the result other than expected, and the way out, a line each"
+    )
     seconds: FloatProperty(name="Time", description="Seconds for all objects", precision=2)
 
 

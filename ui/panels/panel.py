@@ -66,7 +66,7 @@ class VIEW3D_PT_framelet(FrameletPanel, bpy.types.Panel):
         begin_soon(context.active_object)
         _draw_buttons(layout, context)
         draw_progress(layout)
-        draw_preview(layout)
+        draw_preview(layout, context)
         column = settings_column(layout)
         for name in ("preset", "method", "strength", "noise"):
             if has_effect(settings.method, name):

@@ -12,7 +12,7 @@ from ...operators.add_noise import OBJECT_OT_framelet_add_noise
 from ...operators.compare import OBJECT_OT_framelet_compare
 from ...operators.estimate_noise import OBJECT_OT_framelet_estimate_noise
 from ...operators.properties.scene_units import LEAST_WIDTH, range_text
-from .layouts import FrameletPanel, draw_lengths, draw_value
+from .layouts import FrameletPanel, draw_lengths, draw_text, draw_value
 from .region_panel import draw_repairs
 
 
@@ -30,6 +30,8 @@ class VIEW3D_PT_framelet_last_run(FrameletPanel, bpy.types.Panel):
         if report.n_objects == 0:
             column.label(text="Nothing was denoised yet")
             return
+        for hint in report.hints.splitlines():
+            draw_text(column, context, hint)
         one = report.n_objects == 1
         draw_value(column, "Object" if one else "Objects", report.names if one else str(report.n_objects))
         draw_value(column, "Moved", iface_("{:,} of {:,}").format(report.n_moved, report.n_vertices))
