@@ -9,7 +9,7 @@ class Layout:
     """Records what a panel draws, checking that properties and operators exist."""
 
     def __init__(self, record=None, active=True):
-        kinds = ("prop", "label", "operator", "icon", "grayed", "menu", "pressed", "prop_enum")
+        kinds = ("prop", "label", "operator", "icon", "grayed", "menu", "pressed", "prop_enum", "progress")
         self.record = record or {kind: [] for kind in kinds}
         self.active = active
 
@@ -17,6 +17,9 @@ class Layout:
         return Layout(self.record, self.active)
 
     column = split = row
+
+    def progress(self, text="", **_options):
+        self.record["progress"].append(text)
 
     def separator(self, **_options):
         pass

@@ -30,6 +30,9 @@ _ending: list[PreviewSession] = []
 _message = ""
 """What the last preview said when it ended."""
 
+_drawn = (False, "", 0.0)
+"""What sidebars show: whether the preview is current, its message, and how much is done."""
+
 _resumed: Mark | None = None
 
 
@@ -75,15 +78,17 @@ def tick_preview() -> bool:
 
     While Blender reads meshes to render or bake them the preview stays as it is.
     """
+    global _drawn
     session = current_preview()
     if session is None:
         return False
     if is_mesh_being_read():
         return True
-    was = (session.is_current, session.message, round(session.fraction, 1))
     values = settings_of(session.find_object(), bpy.context.scene)
     is_on = session.tick(to_settings(values), to_region_options(values))
-    if (session.is_current, session.message, round(session.fraction, 1)) != was or not is_on:
+    state = (session.is_current, session.message, round(session.fraction, 1))
+    if state != _drawn or not is_on:
+        _drawn = state
         redraw_sidebars()
     return is_on
 
