@@ -105,6 +105,8 @@ def _with_modifier(obj: bpy.types.Object, job: DenoiseJob, from_original: bool |
     That is where it may not move vertices, so that parts of a mesh can be denoised one after the other; and
     all over where it continues from the result. A modifier that is off shows no result.
     """
+    import numpy as np
+
     modifier = find_modifier(obj, DISPLACEMENT)
     if modifier is None:
         return job
@@ -113,7 +115,7 @@ def _with_modifier(obj: bpy.types.Object, job: DenoiseJob, from_original: bool |
         still = job.region.weights == 0.0
         stays = still if stays is None else stays | still
     if from_original is False and get_input(modifier, ON):
-        stays = slice(None)
+        stays = np.ones(job.surface.n_vertices, bool)
     if stays is None:
         return job
     added = stored_displacement(obj) if job.output == MODIFIER else offset_of(obj, DISPLACEMENT)
