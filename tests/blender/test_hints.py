@@ -131,6 +131,26 @@ def test_a_scale_and_a_cage_are_in_last_run_too(make_object, rng):
     assert "The cage was denoised" in lines
 
 
+def test_last_run_does_not_go_on_about_what_is_gone(make_object, rng):
+    obj = make_object(meshes.noisy(meshes.triangle_torus(), rng), "Torus")
+    bpy.ops.object.framelet_denoise(preset="TRI_2")
+    assert "Volume" in labels()
+    bpy.data.objects.remove(obj)
+    assert labels() == ["The object is gone"]
+
+
+def test_a_large_change_of_volume_stands_out(make_object, rng):
+    make_object(meshes.noisy(meshes.triangle_torus(), rng), "Torus")
+    bpy.ops.object.framelet_denoise(preset="TRI_2")
+    report = bpy.context.window_manager.framelet_report
+    alerts = []
+    for change in (-19.5, 4.0):
+        report.volume_change = change
+        record = draw(report_panels.VIEW3D_PT_framelet_last_run)
+        alerts.append(record["alert"])
+    assert alerts == [["Volume", "-19.50 %"], []]
+
+
 def test_sentences_are_broken_into_lines_of_the_sidebar():
     text = "the object is scaled unevenly: apply its scale (Ctrl A) and denoise again"
     record = draw(lambda drawn, context: draw_text(drawn.layout, context, text))
