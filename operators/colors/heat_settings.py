@@ -30,7 +30,7 @@ LIMITS = {"LENGTH": "limit", "ANGLE": "limit_angle", "EDGES": "limit_edges"}
 TOLERANCES = {"LENGTH": "tolerance", "ANGLE": "tolerance_angle"}
 """The properties that hold what is small enough, by unit."""
 
-_TOLERANCE_WORDS = "What is at most this far off is green, as small enough; 0 leaves green out"
+_TOLERANCE_WORDS = "What is at most this far off is green, in {}: larger makes more green; 0 leaves green out"
 
 
 class HeatMixin(RangeMixin):
@@ -81,7 +81,7 @@ class HeatMixin(RangeMixin):
 
     tolerance: FloatProperty(
         name="Tolerance",
-        description=_TOLERANCE_WORDS,
+        description=_TOLERANCE_WORDS.format("scene units"),
         default=0.0,
         min=0.0,
         soft_max=1.0,
@@ -92,7 +92,7 @@ class HeatMixin(RangeMixin):
     )
     tolerance_angle: FloatProperty(
         name="Tolerance",
-        description=_TOLERANCE_WORDS,
+        description=_TOLERANCE_WORDS.format("degrees"),
         default=0.0,
         min=0.0,
         max=pi,

@@ -149,8 +149,11 @@ TEXTS = {
     ),
     "{:.1f} % in this range": "{:.1f} % in diesem Bereich",
     "Green: up to {tolerance}, {share:.3g} %": "Grün: bis {tolerance}, {share:.3g} %",
-    "What is at most this far off is green, as small enough; 0 leaves green out": (
-        "Was höchstens so weit abweicht, ist grün, da klein genug; 0 lässt Grün weg"
+    "What is at most this far off is green, in scene units: larger makes more green; 0 leaves green out": (
+        "Was höchstens so weit abweicht, ist grün, in Szeneneinheiten: größer macht mehr grün; 0 lässt Grün weg"
+    ),
+    "What is at most this far off is green, in degrees: larger makes more green; 0 leaves green out": (
+        "Was höchstens so weit abweicht, ist grün, in Grad: größer macht mehr grün; 0 lässt Grün weg"
     ),
     # Equalizer
     "Equalizer": "Equalizer",
