@@ -343,8 +343,6 @@ def _is_same(first: NDArray, second: NDArray, blocks: Blocks | None = None) -> b
 
 def _line_strength(settings: DenoiseSettings) -> float:
     """Return how much of the noise on feature lines is removed: nothing where nothing else is."""
-    if settings.method == "AUTO":
-        return settings.strength
     if settings.method == "POSITIONS" and settings.tuning == "GIVEN" and settings.lambda_ == 0.0:
         return 0.0
-    return 1.0
+    return settings.strength

@@ -70,6 +70,7 @@ classes = (
 
 POINTERS = (
     (bpy.types.Scene, "framelet", FrameletSettings),
+    (bpy.types.Object, "framelet", FrameletSettings),
     (bpy.types.Scene, "framelet_bands", FrameletBands),
     (bpy.types.Scene, "framelet_equalizer", FrameletEqualizer),
     (bpy.types.Scene, "framelet_heat_map", FrameletHeatMap),
@@ -78,7 +79,7 @@ POINTERS = (
     (bpy.types.WindowManager, "framelet_comparison", FrameletComparison),
     (bpy.types.WindowManager, "framelet_band_range", FrameletBandRange),
 )
-"""Owner, name and class of what is kept with scenes and windows."""
+"""Owner, name and class of what is kept with scenes, objects and windows."""
 
 _register_classes, _unregister_classes = register_classes_factory(classes)
 

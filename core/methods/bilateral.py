@@ -28,7 +28,8 @@ def bilateral_filter(problem: Problem) -> Solution:
     ----------
     problem : Problem
         With the settings `iterations`, `tolerance`, `sigma_c`, and `sigma_s`, where 0 stands for the standard
-        deviation of the heights on the noisy mesh, around the vertices that may move.
+        deviation of the heights on the noisy mesh, around the vertices that may move; `strength` is a
+        factor for it.
 
     Returns
     -------
@@ -41,6 +42,8 @@ def bilateral_filter(problem: Problem) -> Solution:
     for along the surface, as far as 2 sigma_c edges.
     """
     noisy, surface, settings, callback = problem.noisy, problem.surface, problem.settings, problem.callback
+    if settings.strength == 0.0:
+        return Solution(noisy, settings.iterations, False, settings)
     dtype = noisy.dtype.type
     points = noisy.copy()
     blocks = problem.blocks.with_block_size(min(problem.blocks.block_size, VERTICES_AT_ONCE))
@@ -48,11 +51,12 @@ def bilateral_filter(problem: Problem) -> Solution:
     pairs = blocks.run(
         lambda start, stop: vertices_within(problem.connectivity, start, stop, reach), noisy.shape[1]
     )
-    sigma_s = settings.sigma_s
+    sigma_s = settings.strength * settings.sigma_s
     for iteration in range(1, settings.iterations + 1):
         normals = np.ascontiguousarray(vertex_normals(surface.with_vertices(points.T)).T, dtype)
         if sigma_s == 0.0:
             sigma_s = _height_deviation(points, normals, pairs, settings.sigma_c, blocks, problem.movable)
+            sigma_s *= settings.strength
         following = points.copy()
 
         def kernel(

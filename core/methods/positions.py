@@ -21,7 +21,8 @@ def shrink_positions(problem: Problem) -> Solution:
     Parameters
     ----------
     problem : Problem
-        With a transform that was made on the noisy surface, in the dtype of the noisy positions.
+        With a transform that was made on the noisy surface, in the dtype of the noisy positions. Its strength
+        is a factor for λ, which is a height of noise like the strength of AUTO.
 
     Returns
     -------
@@ -32,7 +33,8 @@ def shrink_positions(problem: Problem) -> Solution:
     if settings.tuning == "NOISE":
         noise = estimate_noise(problem.surface, problem.connectivity, problem.blocks, problem.movable)
         settings = tuned(settings, choose_frame(settings.frame, problem.connectivity), noise)
-    if settings.lambda_ == 0.0:  # nothing is shrunk, so nothing moves
+    lambda_ = settings.strength * settings.lambda_
+    if lambda_ == 0.0:  # nothing is shrunk, so nothing moves
         return Solution(problem.noisy, settings.iterations, False, settings, noise)
     assert problem.transform is not None
     callback, n_all = problem.callback, settings.iterations
@@ -43,7 +45,7 @@ def shrink_positions(problem: Problem) -> Solution:
     points, iterations, is_stopped = split_bregman(
         problem.noisy,
         problem.transform,
-        SoftThreshold(settings.lambda_, settings.shrinkage),
+        SoftThreshold(lambda_, settings.shrinkage),
         Steps(settings.mu, settings.delta, n_all, settings.tolerance),
         problem.constraints,
         problem.blocks,

@@ -47,12 +47,11 @@ give method="POSITIONS".
     strength: float = _setting(
         1.0,
         "Strength",
-        "How strong the noise is taken to be, in units of what the mesh shows: larger removes more noise and "
-        "more detail; 1 trusts the mesh, 0 changes nothing",
+        "How strong the noise is taken to be, in units of what the mesh shows, or of λ and of the height "
+        "below: larger removes more noise and more detail; 1 trusts them, 0 changes nothing",
         minimum=0.0,
         maximum=10.0,
         soft_maximum=2.0,
-        methods=("AUTO",),
     )
     noise: str = _setting(
         "AUTO",

@@ -24,6 +24,7 @@ from ..run.denoise_object import read_job, write_outcome
 from ..run.denoise_run import Written
 from ..run.output import refusal
 from ..run.run_guard import find_mesh, find_object, mark_of, what_changed
+from .drafts import Picture, compute_pictures
 from .latest import Latest
 
 if TYPE_CHECKING:
@@ -55,6 +56,8 @@ class PreviewSession:
         What the object is recognized by.
     message : str
         One sentence if there is nothing to show with these settings, or on why the preview ended.
+    fraction : float
+        How much of what is being computed is done, from 0 to 1.
     """
 
     def __init__(self, obj: bpy.types.Object, job: DenoiseJob, options: RegionOptions) -> None:
@@ -72,7 +75,8 @@ class PreviewSession:
         self._result: NDArray[np.float32] | None = None
         self._inputs: dict[str, object] = {}
         kept_original.keep(obj.data, self._original, self._shown)
-        self._latest: Latest[DenoiseJob, DenoiseOutcome] = Latest(_compute)
+        self.fraction = 0.0
+        self._latest: Latest[DenoiseJob, Picture] = Latest(self._compute)
 
     @property
     def name(self) -> str:
@@ -255,12 +259,27 @@ class PreviewSession:
             )
         return False
 
-    def _take(self, job: DenoiseJob, outcome: DenoiseOutcome | None, error: Exception | None) -> None:
+    def _compute(
+        self, job: DenoiseJob, should_stop: Callable[[], bool], show: Callable[[Picture], None]
+    ) -> Picture:
+        """Denoise; on the thread."""
+
+        def outcome_of(job: DenoiseJob, callback: Callable[[float, float], bool]) -> DenoiseOutcome:
+            assembly = assemble([job])
+            return assembly.split(compute(assembly.job, callback, should_stop=should_stop))[0]
+
+        def note(fraction: float) -> None:
+            self.fraction = fraction
+
+        return compute_pictures(job, outcome_of, show, note)
+
+    def _take(self, job: DenoiseJob, picture: Picture | None, error: Exception | None) -> None:
         """Show an answer of the thread; with an error, the original and a sentence."""
-        if error is None and outcome is not None:
+        if error is None and picture is not None:
             self.message = ""
-            self._outcome = job, outcome
-            self._result = mesh_bridge.with_moved(self._job.surface, outcome.vertices)
+            if picture.is_final:
+                self._outcome = job, picture.outcome
+            self._result = mesh_bridge.with_moved(self._job.surface, picture.outcome.vertices)
             self._show(self._result)
             return
         if not isinstance(error, ValueError):
@@ -286,12 +305,6 @@ class PreviewSession:
         kept_original.keep(obj.data, self._original, positions)
         mesh_bridge.show_positions(obj.data, positions)
         self._shown = positions
-
-
-def _compute(job: DenoiseJob, should_stop: Callable[[], bool]) -> DenoiseOutcome:
-    """Denoise; on the thread."""
-    assembly = assemble([job])
-    return assembly.split(compute(assembly.job, should_stop=should_stop))[0]
 
 
 def begin_preview(obj: bpy.types.Object, settings: DenoiseSettings, options: RegionOptions) -> PreviewSession:

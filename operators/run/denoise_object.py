@@ -14,8 +14,10 @@ from ..mesh_io import custom_normals
 from ..mesh_io.region_bridge import read_region
 from ..mesh_io.shape_keys import read_followers
 from ..modifier.displacement import stored_displacement
+from ..modifier.inputs import get_input
 from ..modifier.mirrors import read_mirrors
 from ..modifier.multires import find_multires, level_object
+from ..modifier.node_groups import ON
 from ..modifier.offsets import offset_of
 from ..modifier.recipes import DISPLACEMENT
 from ..modifier.stack import find_modifier
@@ -42,7 +44,7 @@ def read_job(
     options: RegionOptions | None = None,
     *,
     amount: float = 1.0,
-    from_original: bool = False,
+    from_original: bool | None = None,
 ) -> DenoiseJob:
     """Read what a run needs of an object.
 
@@ -59,8 +61,9 @@ def read_job(
         What limits the run; by default selection and hidden vertices alone.
     amount : float
         How much of what is moved is written.
-    from_original : bool
-        Start from where the vertices were before the last run, if the mesh still is what that made.
+    from_original : bool or None
+        True starts from where the vertices were before the last run, if the mesh still is what that made;
+        False from its result, also from one in a modifier; None from the mesh itself.
 
     Raises
     ------
@@ -87,7 +90,7 @@ def read_job(
         mirrors=read_mirrors(obj),
         origin=origin_of(obj),
     )
-    job = _with_kept_parts(obj, job)
+    job = _with_modifier(obj, job, from_original)
     run = run_memory.last_run_of(obj, surface) if from_original else None
     if run is None:
         return job
@@ -122,17 +125,24 @@ def _read_level(
     )
 
 
-def _with_kept_parts(obj: bpy.types.Object, job: DenoiseJob) -> DenoiseJob:
-    """Leave what the modifier of a run before adds where this run may not move vertices.
+def _with_modifier(obj: bpy.types.Object, job: DenoiseJob, from_original: bool | None) -> DenoiseJob:
+    """Add what the modifier of a run before adds, where this run does not start from the mesh itself.
 
-    So parts of a mesh can be denoised one after the other.
+    That is where it may not move vertices, so that parts of a mesh can be denoised one after the other; and
+    all over where it continues from the result. A modifier that is off shows no result.
     """
+    import numpy as np
+
     modifier = find_modifier(obj, DISPLACEMENT)
+    if modifier is None:
+        return job
     stays = None if job.movable is None else ~job.movable
     if job.region is not None and job.region.weights is not None:
         still = job.region.weights == 0.0
         stays = still if stays is None else stays | still
-    if modifier is None or stays is None:
+    if from_original is False and get_input(modifier, ON):
+        stays = np.ones(job.surface.n_vertices, bool)
+    if stays is None:
         return job
     added = stored_displacement(obj) if job.output == MODIFIER else offset_of(obj, DISPLACEMENT)
     assert added is not None  # there is a modifier

@@ -243,7 +243,7 @@ def begin_run(
     options: RegionOptions | None = None,
     *,
     amount: float = 1.0,
-    from_original: bool = False,
+    from_original: bool | None = None,
 ) -> DenoiseRun:
     """Read all that a run needs.
 
@@ -259,8 +259,9 @@ def begin_run(
         What limits the run.
     amount : float
         How much of what is moved is written.
-    from_original : bool
-        Start from where the vertices were before the last run, where a mesh still is what that made.
+    from_original : bool or None
+        True starts from where the vertices were before the last run, where a mesh still is what that made;
+        False from its result, also from one in a modifier; None from the mesh itself.
 
     Raises
     ------

@@ -180,6 +180,12 @@ TEXTS = {
     "von {edges:.2g} Kantenlängen liegen; verschieben Sie zuerst die Punkte dorthin",
     "; clean already": "; schon sauber",
     "; Strength is 0": "; Stärke ist 0",
+    "it is made of voxels: the preset Marching Cubes / CT rounds the steps": (
+        "es besteht aus Voxeln: die Vorgabe Marching Cubes / CT rundet die Stufen"
+    ),
+    "its heights are in whole steps: the preset Paper Tri-2 takes them away": (
+        "seine Höhen haben ganze Stufen: die Vorgabe Artikel Tri-2 nimmt sie weg"
+    ),
     "the object is scaled unevenly: apply its scale (Ctrl A) and denoise again": (
         "das Objekt ist ungleich skaliert: seine Skalierung anwenden (Strg A) und noch einmal entrauschen"
     ),
