@@ -165,6 +165,9 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, RegionMixin, bpy.ty
             self.report({"ERROR"}, run.reason)
             return {"CANCELLED"}
         written = run.finish()
+        if run.state is State.FAILED:
+            self.report({"ERROR"}, run.reason)
+            return {"CANCELLED"}
         if run.failures:
             self.report({"WARNING"}, " ".join(run.failures))
         report_written(self, context, written)

@@ -21,6 +21,7 @@ from .preview import targets
 from .properties.scene_units import value_texts
 from .reports.filled_reports import fill_band_range
 from .run import run_memory
+from .shortage import shortage_told
 
 if TYPE_CHECKING:
     from .bands.band_values import BandValues, ColorRange
@@ -108,11 +109,12 @@ class OBJECT_OT_framelet_heat_map(HeatMixin, bpy.types.Operator):
         if not done:
             return {"CANCELLED"}
         try:
-            limit = _heat_limit(self, done, self.quantity)
+            with shortage_told(", ".join(done)):
+                limit = _heat_limit(self, done, self.quantity)
+                found = show_heat(context, done, self.quantity, limit)
         except ValueError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        found = show_heat(context, done, self.quantity, limit)
         show_vertex_colors(context)
         shown = context.window_manager.framelet_band_range
         lowest, highest = value_texts(context.scene, [shown.minimum, limit], kind.unit)

@@ -383,7 +383,10 @@ def sides(world):
 
 def heat(world):
     _targets(world)
-    world.call(bpy.ops.object.framelet_heat_map, quantity=world.dice.choice(("NORMAL", "LENGTH", "ANGLE", "NOISE", "WIDTH")))
+    world.call(
+        bpy.ops.object.framelet_heat_map,
+        quantity=world.dice.choice(("NORMAL", "LENGTH", "ANGLE", "NOISE", "WIDTH")),
+    )
     world.call(bpy.ops.object.framelet_hide_colors)
     return SAME
 

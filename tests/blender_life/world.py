@@ -28,7 +28,7 @@ SAME, MOVED, OTHER = "same", "moved", "other"
 class Seen(NamedTuple):
     """Digests of one object's faces, of its active shape and of all shape keys, and Framelet's modifiers.
 
-    The keys are empty in Edit Mode, where they cannot be read.
+    Empty is what cannot be read: in Edit Mode the keys, and which of them a twin of the edited object shows.
     """
 
     faces: str
@@ -38,8 +38,8 @@ class Seen(NamedTuple):
 
     def is_shaped_as(self, other):
         """Return whether faces and positions are the same bits."""
-        keys = not self.keys or not other.keys or self.keys == other.keys
-        return self.faces == other.faces and self.shape == other.shape and keys
+        pairs = ((self.shape, other.shape), (self.keys, other.keys))
+        return self.faces == other.faces and all(a == b or not a or not b for a, b in pairs)
 
 
 class World:
@@ -199,8 +199,9 @@ def seen(obj):
         modifier = find_modifier(obj, kind)
         if modifier is not None:
             modifiers.append((kind, *sorted(map(str, input_values(modifier).items()))))
-    digest_of_keys = "" if obj.data.is_editmode else digest(keys)
-    return Seen(digest(faces), digest([surface.vertices]), digest_of_keys, tuple(modifiers))
+    is_edited = obj.data.is_editmode
+    shape = "" if is_edited and obj.mode != "EDIT" else digest([surface.vertices])
+    return Seen(digest(faces), shape, "" if is_edited else digest(keys), tuple(modifiers))
 
 
 def assert_same_shapes(before, after):
