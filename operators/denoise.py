@@ -165,7 +165,7 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, RegionMixin, bpy.ty
             self.report({"ERROR"}, run.reason)
             return {"CANCELLED"}
         written = run.finish()
-        if run.state is State.FAILED:
+        if not written:
             self.report({"ERROR"}, run.reason)
             return {"CANCELLED"}
         if run.failures:

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 
-"""Batches on disks that are full or read-only, and on inputs that vanish: words, no traceback, and no loss."""
+"""Batches on disks that are full or read-only, and inputs that vanish: words, no traceback, and no loss."""
 
 import os
 import subprocess
@@ -40,7 +40,7 @@ def test_a_disk_that_fills_up(scans, tmp_path, disk):
     run("batch", scans, "--out", tmp_path / "whole")
     whole = state_of(tmp_path / "whole")
     out = disk("size=64k") / "out"
-    _, err = run("batch", scans, "--out", out, code=2)
+    _, err = run("batch", scans, "--out", out, code=1)
     assert "Traceback" not in err and "No space left" in err, err
     for path in out.rglob("*.obj"):
         assert path.read_bytes() == whole[0][path.relative_to(out).as_posix()], path
@@ -55,7 +55,7 @@ def test_a_read_only_folder(scans, disk):
     folder = disk("size=1m")
     subprocess.run(["mount", "-o", "remount,ro", folder], check=True)
     for out in (folder, folder / "out"):
-        _, err = run("batch", scans, "--out", out, code=2)
+        _, err = run("batch", scans, "--out", out, code=1)
         assert "Traceback" not in err and "Read-only file system" in err, err
         assert len(err.strip().splitlines()) <= 3, err
 
@@ -69,7 +69,7 @@ def test_a_folder_that_becomes_read_only(scans, disk):
     run("batch", scans, "--out", folder / "out", "--limit", "2")
     before = report.read_bytes()
     subprocess.run(["mount", "-o", "remount,ro", folder], check=True)
-    _, err = run("batch", scans, "--out", folder / "out", code=2)
+    _, err = run("batch", scans, "--out", folder / "out", code=1)
     assert "Traceback" not in err and "Read-only file system" in err, err
     assert report.read_bytes() == before
     subprocess.run(["mount", "-o", "remount,rw", folder], check=True)

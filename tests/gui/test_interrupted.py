@@ -78,7 +78,9 @@ def begin_run(session, window="window()"):
     """Start a run that takes minutes."""
     session.run(SETTINGS, iterations=10000)
     code = f"with bpy.context.temp_override(window={window}):\n"
-    session.run(code + "    bpy.ops.object.framelet_denoise('INVOKE_DEFAULT', preset='TRI_2', iterations=10000)")
+    session.run(
+        code + "    bpy.ops.object.framelet_denoise('INVOKE_DEFAULT', preset='TRI_2', iterations=10000)"
+    )
     session.wait_for("bool(bpy.ops.object.framelet_cancel.poll())")
 
 
