@@ -169,6 +169,9 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, RegionMixin, bpy.ty
             self.report({"ERROR"}, run.reason)
             return {"CANCELLED"}
         written = run.finish()
+        if not written:
+            self.report({"ERROR"}, run.reason)
+            return {"CANCELLED"}
         if self.options.is_invoke:
             # The settings of the active object, which all were denoised with.
             for obj in {each for item in written for each in (item.original, item.obj)}:

@@ -22,6 +22,7 @@ from .properties.scene_units import value_texts
 from .properties.setting_values import as_typed
 from .reports.filled_reports import fill_band_range
 from .run import run_memory
+from .shortage import shortage_told
 
 if TYPE_CHECKING:
     from .bands.band_values import BandValues, ColorRange
@@ -119,7 +120,8 @@ class OBJECT_OT_framelet_heat_map(HeatMixin, bpy.types.Operator):
         if not done:
             return {"CANCELLED"}
         try:
-            found = show_heat(context, done, self.quantity, self)
+            with shortage_told(", ".join(done)):
+                found = show_heat(context, done, self.quantity, self)
         except ValueError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}

@@ -11,7 +11,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-from .inputs import PlanError
+from .inputs import PlanError, ReportError
 from .task import Task, hash_of
 
 DONE, FAILED = "done", "failed"
@@ -32,7 +32,7 @@ class RowFile:
         try:
             self._number = os.open(path, os.O_RDWR | os.O_CREAT | os.O_APPEND | _BINARY, 0o666)
         except OSError as error:
-            raise PlanError(f"{path} cannot be written: {error.strerror or error}.") from error
+            raise ReportError(path, error) from error
         self._mend()
 
     def _mend(self) -> None:
@@ -40,19 +40,23 @@ class RowFile:
         size = os.fstat(self._number).st_size
         os.lseek(self._number, max(size - 1, 0), os.SEEK_SET)
         if size and os.read(self._number, 1) != b"\n":
-            os.write(self._number, b"\n")
+            self._write(b"\n")
 
     def append(self, row: dict[str, Any]) -> None:
         """Append a row, and see that it reaches the disk."""
         # A name that is not UTF-8 is an escape that JSON knows.
         text = json.dumps(row, ensure_ascii=True, allow_nan=False) + "\n"
-        data = memoryview(text.encode("ascii"))
+        self._write(text.encode("ascii"))
+
+    def _write(self, content: bytes) -> None:
+        """Write at the end, to the disk."""
+        data = memoryview(content)
         try:
             while data:
                 data = data[os.write(self._number, data) :]
             os.fsync(self._number)
         except OSError as error:
-            raise PlanError(f"{self.path} cannot be written: {error.strerror or error}.") from error
+            raise ReportError(self.path, error) from error
 
     def __enter__(self) -> RowFile:
         return self

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from ..batch.begun import Begun
-from ..batch.inputs import PlanError
+from ..batch.inputs import PlanError, ReportError
 from ..batch.lock import ReportLock
 from ..batch.progress import TimeLeft
 from ..batch.rows import DONE, RowFile, read_rows
@@ -170,8 +170,10 @@ def _say_row(row: dict[str, Any], where: str, arguments: argparse.Namespace, mes
 
 @contextmanager
 def _as_usage_errors() -> Iterator[None]:
-    """Turn what contradicts itself in a plan into a usage error."""
+    """Turn what contradicts itself in a plan into a usage error, and a report that fails into a failure."""
     try:
         yield
+    except ReportError as error:
+        raise CommandError(str(error), FAILURE) from error
     except PlanError as error:
         raise CommandError(str(error), USAGE_ERROR) from error

@@ -24,6 +24,7 @@ from ..run.denoise_object import read_job, write_outcome
 from ..run.denoise_run import Written
 from ..run.output import refusal
 from ..run.run_guard import find_mesh, find_object, mark_of, what_changed
+from ..shortage import reserve_for_writing, shortage_told
 from .drafts import Picture, compute_pictures
 from .latest import Latest
 
@@ -120,6 +121,14 @@ class PreviewSession:
         """
         if not self.is_on or self._is_suspended:
             return self.is_on
+        try:
+            return self._tick(settings, options)
+        except MemoryError:
+            self.end(f"There is not enough memory for ‘{self.name}’, so that the preview ended.")
+            return False
+
+    def _tick(self, settings: DenoiseSettings, options: RegionOptions) -> bool:
+        """Do so, with the memory that there is."""
         change = what_changed(self.mark, self._job.read)
         if change is not None:
             self.end(f"{change}, so that the preview ended.")
@@ -200,6 +209,8 @@ class PreviewSession:
         if reason is not None:
             raise ValueError(reason)
         outcome = self._outcome[1]
+        with shortage_told(obj.name):
+            reserve_for_writing(obj)
         self.end()
         written = write_outcome(obj, replace(self._outcome[0], output=output), outcome)
         return Written(obj, written.obj, with_amount(outcome.measured, written.amount), written.note)
@@ -317,7 +328,8 @@ def begin_preview(obj: bpy.types.Object, settings: DenoiseSettings, options: Reg
     """
     if obj.mode != "OBJECT":
         raise ValueError(f"‘{obj.name}’: the preview needs Object Mode; leave the mode first.")
-    job = read_job(obj, settings, IN_PLACE, options, from_original=True)
+    with shortage_told(obj.name):
+        job = read_job(obj, settings, IN_PLACE, options, from_original=True)
     if job.is_level:
         raise ValueError(
             f"‘{obj.name}’ has a Multires modifier, of which there is no preview; press Denoise instead."

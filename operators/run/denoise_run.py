@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from bpy.app.translations import pgettext_iface as iface_
 
+from ..shortage import reserve_for_writing, shortage_told
 from .assembly import assemble
 from .denoise_job import DenoiseJob, DenoiseOutcome, MeasuredReport, compute, with_amount
 from .denoise_object import read_job, write_outcome
@@ -168,7 +169,10 @@ class DenoiseRun:
         return not self._is_started or self._worker.wait(seconds)
 
     def finish(self) -> list[Written]:
-        """Write the results of a run that is ready, and return what was done."""
+        """Write the results of a run that is ready, and return what was done.
+
+        Where there is no memory to write, `failures` says so; a run that could write nothing has FAILED.
+        """
         if self.state is not State.READY:
             raise RuntimeError(f"The run cannot be finished: {self.state.value}.")
         self.state = State.FINISHED
@@ -177,9 +181,17 @@ class DenoiseRun:
             if isinstance(outcome, DenoiseOutcome):
                 obj = find_object(mark)
                 assert obj is not None  # `tick` has looked, and nothing happened since
+                try:
+                    with shortage_told(obj.name):
+                        reserve_for_writing(obj)
+                except ValueError as error:
+                    self.failures.append(str(error))
+                    continue
                 output = write_outcome(obj, job, outcome)
                 measured = with_amount(outcome.measured, output.amount)
                 written.append(Written(obj, output.obj, measured, output.note))
+        if not written:
+            self.state, self.reason = State.FAILED, " ".join(self.failures)
         return written
 
     def _take_results(self) -> None:
@@ -271,7 +283,8 @@ def begin_run(
     jobs, failures = [], []
     for obj in objects:
         try:
-            job = read_job(obj, settings, output, options, amount=amount, from_original=from_original)
+            with shortage_told(obj.name):
+                job = read_job(obj, settings, output, options, amount=amount, from_original=from_original)
             jobs.append((mark_of(obj), job))
         except ValueError as error:
             failures.append(str(error))
