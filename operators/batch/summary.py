@@ -137,7 +137,7 @@ COLUMNS: tuple[tuple[str, Callable[[dict[str, Any]], Any]], ...] = (
         for name in (
             "preset", "n_objects", "n_vertices", "n_faces", "n_moved", "displacement_rms", "displacement_max",
             "displacement_max_edges", "folded_faces_before", "folded_faces", "turned_faces", "volume_change",
-            "attempts", "peak_bytes", "framelet", "blender", "input_sha256", "output_sha256",
+            "peak_bytes", "framelet", "blender", "input_sha256", "output_sha256",
         )
     ),
     ("noise_edges", lambda row: noise_of(row)),

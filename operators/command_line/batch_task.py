@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One file of a batch: denoise it, write it, and account for it in a row. Runs in a process of the batch."""
+"""One file of a batch: denoise it, write it, and account for it in a row. Runs in any process."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ...core.processors import use_processors
 from ...core.settings import DenoiseSettings
 from ..batch.peak_memory import forget_peak, peak_bytes
 from ..batch.rows import DONE, FAILED
@@ -62,7 +63,8 @@ def carry_out(job: dict[str, Any]) -> dict[str, Any]:
     Parameters
     ----------
     job : dict
-        The fields of a `Task`, and `max_bytes`, the most memory that the work may take, or None.
+        ``task``, the fields of a `Task`; ``max_bytes``, the most memory that the work may take, or None;
+        ``n_threads``, how many threads it may use, or 0 for as many as there are cores.
 
     Returns
     -------
@@ -70,13 +72,14 @@ def carry_out(job: dict[str, Any]) -> dict[str, Any]:
         The row of the report; ``status`` is "done", or "failed" with the sentence in ``error``. No error is
         raised that a file can cause.
     """
-    task = Task(**{name: value for name, value in job.items() if name != "max_bytes"})
+    task = Task(**job["task"])
+    use_processors(job["n_threads"])
     messages, stages, row = KeptMessages(), _Stages(), row_of(task)
     forget_peak()
     try:
         if task.error:
             raise CommandError(task.error)
-        row |= _work(task, job.get("max_bytes"), messages, stages)
+        row |= _work(task, job["max_bytes"], messages, stages)
         row["status"] = DONE
     except Exception as error:
         row["error"] = _sentence(error, task)
@@ -93,7 +96,6 @@ def row_of(task: Task) -> dict[str, Any]:
         "output": task.name,
         "target": task.target,
         "error": None,
-        "attempts": 1,
         "preset": task.preset,
         "settings": task.settings,
         "region": task.region,

@@ -26,7 +26,7 @@ spec.loader.exec_module(package)
 from framelet.operators.command_line import main
 sys.exit(main())
 """
-TIMES = ("seconds", "ended", "peak_bytes", "attempts")
+TIMES = ("seconds", "ended", "peak_bytes")
 """What differs between two runs that did the same."""
 
 
