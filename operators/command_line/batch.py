@@ -7,7 +7,7 @@ from __future__ import annotations
 import argparse
 import os
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any
@@ -75,7 +75,8 @@ def run(arguments: argparse.Namespace) -> None:
             begun.add(task.name for task in undone if not task.error and not os.path.lexists(task.target))
             for folder in {Path(task.target).parent for task in tasks}:
                 remove_leftovers(folder)
-            failed = _work(undone, len(tasks), stack.enter_context(RowFile(reports[0])), arguments, messages)
+            jobs = [_job(task, rows) for task in undone]
+            failed = _work(jobs, len(tasks), stack.enter_context(RowFile(reports[0])), arguments, messages)
             if not failed:
                 begun.forget()
     if failed:
@@ -83,26 +84,33 @@ def run(arguments: argparse.Namespace) -> None:
         raise CommandError(f"{files} of {len(tasks):,} failed; see {reports[0]}.", FAILURE)
 
 
+def _job(task: Task, rows: Mapping[str, dict[str, Any]]) -> dict[str, Any]:
+    """Return what a process is told to do, in plain values."""
+    folder = Path(task.target).parent
+    written = rows.get(task.name, {}).get("beside_output") or {}
+    own = {os.path.normpath(folder / name): known for name, known in written.items()}
+    return {"task": task.as_dict(), "source": task.source, "own": own}
+
+
 def _work(
-    tasks: list[Task], n_all: int, report: RowFile, arguments: argparse.Namespace, messages: Messages
+    jobs: list[dict[str, Any]], n_all: int, report: RowFile, arguments: argparse.Namespace, messages: Messages
 ) -> int:
-    """Work on the tasks, write their rows, and return how many failed."""
+    """Carry out the jobs, write their rows, and return how many failed."""
     from .batch_task import row_of
 
-    if n_all > len(tasks):
-        messages.say(f"{n_all - len(tasks):,} of {n_all:,} files are left as they are.")
-    if not tasks:
+    if n_all > len(jobs):
+        messages.say(f"{n_all - len(jobs):,} of {n_all:,} files are left as they are.")
+    if not jobs:
         return 0
     failed = 0
-    foreign = {task.name for task in tasks if task.error and task.target}
-    jobs = [{"task": task.as_dict(), "source": task.source} for task in tasks]
     with (
         _results(jobs, arguments, messages) as results,
-        BatchProgress(len(tasks), messages, arguments.verbose) as progress,
+        BatchProgress(len(jobs), messages, arguments.verbose) as progress,
     ):
         for job, found in results:
-            row = row_of(Task(**job["task"])) | found
-            if row["output"] in foreign:
+            task = Task(**job["task"])
+            row = row_of(task) | found
+            if task.error and task.target:
                 row["is_foreign"] = True
             report.append(row)
             progress.say(row)

@@ -93,7 +93,8 @@ class Farm:
         # a group of its own, of which Dask keeps none back.
         run, numbers = uuid4().hex, count()
         at_work: dict[Any, tuple[Any, dict[str, Any]]] = {}
-        ended = as_completed(loop=self._client.loop)
+        # With results, which are fetched meanwhile: one whose process died right after it is waited for here.
+        ended = as_completed(loop=self._client.loop, with_results=True, raise_errors=False)
 
         def submit(n: int) -> None:
             for job in islice(waiting, max(n, 0)):
@@ -111,9 +112,9 @@ class Farm:
                     if look.again():
                         submit(look.n_workers - len(at_work))
                     continue
-                future = next(ended)
-                row = _row(future, at_work[future.key][1])
+                future, result = next(ended)
                 _future, job = at_work.pop(future.key)
+                row = _row(future, result, job)
                 submit(look.n_workers - len(at_work))
                 yield job, row
         finally:
@@ -157,12 +158,12 @@ class _Look:
         return True
 
 
-def _row(future: Any, job: dict[str, Any]) -> dict[str, Any]:
+def _row(future: Any, result: Any, job: dict[str, Any]) -> dict[str, Any]:
     """Return what came of a job."""
     from distributed import KilledWorker
 
     if future.status == "finished":
-        return future.result()
+        return result
     if future.status != "error":
         raise FarmError("The scheduler was lost; start it and give the same command again, which goes on.")
     error = future.exception()

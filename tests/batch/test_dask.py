@@ -92,5 +92,14 @@ def test_a_scheduler_that_does_not_answer(farm, scans, tmp_path, monkeypatch, ca
     monkeypatch.setattr(dask_farm, "PATIENCE", 1)
     words = ("batch", str(scans), "--out", str(tmp_path / "out"), "--scheduler", "tcp://127.0.0.1:9")
     began = time.monotonic()
-    assert main(words) == 2
+    assert main(words) == 1
     assert "does not answer" in capsys.readouterr().err and time.monotonic() - began < 30
+
+
+def test_workers_with_several_threads_are_refused(farm, scans, tmp_path, capsys, monkeypatch):
+    from distributed import Client
+
+    address, (_scheduler, *_workers) = farm
+    monkeypatch.setattr(Client, "nthreads", lambda self: {"tcp://10.0.0.1:1": 4})
+    assert main(["batch", str(scans), "--out", str(tmp_path / "out"), "--scheduler", address]) == 1
+    assert "--nworkers 4 --nthreads 1" in capsys.readouterr().err
