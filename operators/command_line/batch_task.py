@@ -157,7 +157,9 @@ def _work(
         others = {str(path.absolute()) for path in written} - {str(target)}
         # What was there already and is still the same was not written again.
         others |= {path for path, known in own.items() if hash_of(path) == known}
-        found["beside_output"] = {os.path.relpath(path, target.parent): hash_of(path) for path in sorted(others)}
+        found["beside_output"] = {
+            os.path.relpath(path, target.parent): hash_of(path) for path in sorted(others)
+        }
     return found
 
 
@@ -186,9 +188,7 @@ def _work_here(
     return found | {"beside_input": beside, "defects": defects}
 
 
-def _work_in_blender(
-    task: Task, outputs: Outputs, messages: KeptMessages, stages: _Stages
-) -> dict[str, Any]:
+def _work_in_blender(task: Task, outputs: Outputs, messages: KeptMessages, stages: _Stages) -> dict[str, Any]:
     from .blender_process import run_in_blender
 
     with stages("blender"):
@@ -214,7 +214,7 @@ _COUNTED = {
     "open borders": ("vertex", "boundary_vertices"),
     "loose vertices": ("vertex", "loose_vertices"),
 }
-"""Defects that are known of surfaces of Blender, with the names of their counts; of files see `defects_of`."""
+"""Defects that are known of surfaces of Blender, with names of their counts; of files see `defects_of`."""
 
 
 def account(entries: Sequence[dict[str, Any]], skipped: Sequence[dict[str, str]]) -> dict[str, Any]:

@@ -161,7 +161,11 @@ def weld_of(opened: OpenedFile, surface: SurfaceMesh) -> Weld | None:
 
 
 def write_target(
-    opened: OpenedFile, target: Path, outputs: Outputs, messages: Messages, own: Mapping[str, str] | None = None
+    opened: OpenedFile,
+    target: Path,
+    outputs: Outputs,
+    messages: Messages,
+    own: Mapping[str, str] | None = None,
 ) -> None:
     """Write the file, and what belongs to it, into the outputs; of `own` see `write_sidecars`.
 
@@ -185,9 +189,7 @@ def write_target(
             )
         outputs.write(target, data)
         return
-    for sentence in write_sidecars(
-        opened.file, opened.positions, opened.source, target, outputs, own or {}
-    ):
+    for sentence in write_sidecars(opened.file, opened.positions, opened.source, target, outputs, own or {}):
         messages.warn(sentence)
     if opened.file.has_stale_normals(opened.positions):
         messages.warn(

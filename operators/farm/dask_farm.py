@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A batch by Dask: each task is one file, in a process of this computer or on the machines of a scheduler.
 
-Dask starts the processes, hands out the files, and tries a file again whose process died. Arrays never cross a
-border: workers read and write files, so that all machines must see the same folders. What crosses are plain
+Dask starts the processes, hands out the files, and tries a file again whose process died. Arrays never cross
+a border: workers read and write files, so that all machines must see the same folders. What crosses are plain
 values and the name of a function, which the workers import from their own Framelet.
 """
 
@@ -26,7 +26,7 @@ PATIENCE = 30
 """Seconds to wait for the scheduler."""
 
 DEATHS = 1
-"""How many processes of this computer a file may take along and be tried again: another program may have been it."""
+"""How many processes of this computer a file may take along and be tried again: it may not be to blame."""
 
 ABANDONED = 300
 """Seconds without any worker after which a batch ends."""
@@ -151,8 +151,8 @@ class _Look:
             self._last_seen = now
         elif now - self._last_seen > ABANDONED:
             raise FarmError(
-                f"There was no worker for {ABANDONED} seconds; start one and give the same command again, which "
-                "goes on."
+                f"There was no worker for {ABANDONED} seconds; start one and give the same command again, "
+                "which goes on."
             )
         self.n_workers, self._last = max(len(workers), 1), now
         return True
@@ -170,8 +170,8 @@ def _row(future: Any, result: Any, job: dict[str, Any]) -> dict[str, Any]:
     if isinstance(error, KilledWorker):
         times = error.allowed_failures + 1
         return {
-            "error": f"The process that worked on {job['source']} died, {times} times; the file may be damaged, "
-            "or need more memory than there is."
+            "error": f"The process that worked on {job['source']} died, {times} times; the file may be "
+            "damaged, or need more memory than there is."
         }
     reason = " ".join(f"{type(error).__name__}: {error}".split())
     if isinstance(error, ImportError) or "deserializ" in reason:
@@ -205,7 +205,9 @@ def on_this_computer(n_processes: int, environment: dict[str, str]) -> Iterator[
         # Whoever can reach a scheduler can run what he likes; on a shared machine that is everyone.
         security = Security.temporary()
     except ImportError as error:
-        raise NoDask(f"Dask is missing ({error.name}); install it with 'pip install framelet[farm]'.") from error
+        raise NoDask(
+            f"Dask is missing ({error.name}); install it with 'pip install framelet[farm]'."
+        ) from error
     # Dask's own words on workers that die are told as rows.
     _silence()
     settings = {
@@ -263,9 +265,7 @@ def of_scheduler(address: str) -> Iterator[Farm]:
     try:
         client = Client(address, timeout=PATIENCE, set_as_default=False)
     except (OSError, ValueError) as error:
-        raise FarmError(
-            f"The scheduler {address} does not answer; start it, or mend the address."
-        ) from error
+        raise FarmError(f"The scheduler {address} does not answer; start it, or mend the address.") from error
     with client:
         yield Farm(client)
 

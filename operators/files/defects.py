@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is wrong with the faces of a file, by the file's own numbers, so that it can be looked up and mended."""
+"""What is wrong with the faces of a file, by the numbers of the file, where it can be mended."""
 
 from __future__ import annotations
 

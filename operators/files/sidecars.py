@@ -138,9 +138,7 @@ def _can_be(place: Path, content: bytes, source: Path, uri: str) -> bool:
         return False
 
 
-def _copy(
-    name: str, source: Path, target: Path, outputs: Outputs, own: Mapping[str, str]
-) -> list[str]:
+def _copy(name: str, source: Path, target: Path, outputs: Outputs, own: Mapping[str, str]) -> list[str]:
     """Copy a file that is referred to by a relative path; return what is to be said."""
     path = Path(name.replace("\\", "/"))
     if path.is_absolute() or ".." in path.parts or not name:

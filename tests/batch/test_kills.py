@@ -17,6 +17,7 @@ KILLS = int(os.environ.get("FRAMELET_KILLS", "4"))
 
 pytestmark = pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="this system has no SIGKILL")
 
+
 def test_killed_at_random_moments(tmp_path):
     scans = tmp_path / "scans"
     scans.mkdir()
