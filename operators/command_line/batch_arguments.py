@@ -53,12 +53,12 @@ def add_batch_arguments(parser: argparse.ArgumentParser) -> None:
         "--jobs",
         metavar="N",
         type=_count,
-        help="work on N files at a time, each in a process of its own, by Dask (framelet[farm])",
+        help="work on N files at a time, each in a process of its own, by Dask",
     )
     workers.add_argument(
         "--scheduler",
         metavar="tcp://HOST:PORT",
-        help="work on the machines of a Dask scheduler (framelet[farm])",
+        help="work on the machines of a Dask scheduler",
     )
     work.add_argument(
         "--slice", metavar="I/N", type=_slice, help="only part I of N, from 1, with a report of its own"

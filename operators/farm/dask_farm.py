@@ -205,9 +205,7 @@ def on_this_computer(n_processes: int, environment: dict[str, str]) -> Iterator[
         # Whoever can reach a scheduler can run what he likes; on a shared machine that is everyone.
         security = Security.temporary()
     except ImportError as error:
-        raise NoDask(
-            f"Dask is missing ({error.name}); install it with 'pip install framelet[farm]'."
-        ) from error
+        raise NoDask(f"There is no {error.name}; run 'pip install distributed cryptography'.") from error
     # Dask's own words on workers that die are told as rows.
     _silence()
     settings = {
@@ -260,7 +258,7 @@ def of_scheduler(address: str) -> Iterator[Farm]:
     try:
         from distributed import Client
     except ImportError as error:
-        raise NoDask("--scheduler needs Dask; install it with 'pip install framelet[farm]'.") from error
+        raise NoDask("--scheduler needs Dask; run 'pip install distributed cryptography'.") from error
     _silence()
     try:
         client = Client(address, timeout=PATIENCE, set_as_default=False)

@@ -22,13 +22,13 @@ def test_what_is_missing_is_said(scans, tmp_path, capsys, monkeypatch):
     monkeypatch.setitem(sys.modules, "distributed", None)
     words = ("batch", str(scans), "--out", str(tmp_path / "out"), "--scheduler", "tcp://127.0.0.1:9")
     assert main(words) == 2
-    assert "pip install framelet[farm]" in capsys.readouterr().err
+    assert "pip install distributed" in capsys.readouterr().err
 
 
 @pytest.fixture
 def farm(tmp_path):
     """A scheduler and two workers, which import Framelet as an installed package; address and processes."""
-    pytest.importorskip("distributed", reason="Dask distributed is not installed (framelet[farm])")
+    pytest.importorskip("distributed", reason="Dask distributed is not installed")
     package = tmp_path / "path"
     package.mkdir()
     (package / "framelet").symlink_to(ROOT)

@@ -29,7 +29,7 @@ def test_without_dask_one_file_at_a_time(scans, tmp_path, capsys, monkeypatch):
     out = tmp_path / "out"
     assert main(["batch", str(scans), "--out", str(out), "--jobs", "2", "--preset", "tri-2"]) == 0
     said = capsys.readouterr()
-    assert "one file is worked on at a time" in said.err and "pip install framelet[farm]" in said.err
+    assert "one file is worked on at a time" in said.err and "pip install distributed" in said.err
     assert len(rows_of(out / "report.jsonl")) == 6
 
 

@@ -4,8 +4,8 @@
 
     python3 .ci/environment.py run core -- tests/benchmarks/batch/run.py
 
-Each way is one run of the command line; with Dask the start of its processes is counted by itself. `load` is how
-busy the computer was: with more than one for each core the figures say little.
+Each way is one run of the command line; with Dask the start of its processes is counted by itself. The load
+says how busy the computer was: with more than one for each core the figures say little.
 """
 
 import argparse
@@ -70,9 +70,8 @@ def write_sheet(path, side, seed):
     x, y = np.meshgrid(np.arange(side), np.arange(side), indexing="ij")
     z = np.random.default_rng(seed).normal(0, 0.1, x.shape)
     number = np.arange(side * side).reshape(side, side) + 1
-    a, b, c, d = (
-        part.ravel() for part in (number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:])
-    )
+    a, b = number[:-1, :-1].ravel(), number[1:, :-1].ravel()
+    c, d = number[1:, 1:].ravel(), number[:-1, 1:].ravel()
     lines = [f"v {p} {q} {r:.6f}" for p, q, r in zip(x.ravel(), y.ravel(), z.ravel(), strict=True)]
     lines += [f"f {p} {q} {r}\nf {p} {r} {s}" for p, q, r, s in zip(a, b, c, d, strict=True)]
     path.write_text("\n".join(lines) + "\n")
