@@ -73,10 +73,13 @@ def run(arguments: argparse.Namespace) -> None:
             begun = Begun(reports[0])
             undone = [without_foreign(task, rows, begun.names(), arguments) for task in undone]
             begun.add(task.name for task in undone if not task.error and not os.path.lexists(task.target))
-            for folder in {Path(task.target).parent for task in tasks}:
+            folders = {Path(task.target).parent for task in tasks}
+            for folder in folders:
                 remove_leftovers(folder)
             jobs = [_job(task, rows) for task in undone]
             failed = _work(jobs, len(tasks), stack.enter_context(RowFile(reports[0])), arguments, messages)
+            for folder in folders:
+                remove_leftovers(folder)  # of processes that died
             if not failed:
                 begun.forget()
     if failed:

@@ -3,7 +3,6 @@
 """A batch on a scheduler and two workers of Dask, one of which is killed on the way."""
 
 import os
-import signal
 import subprocess
 import sys
 import time
@@ -75,7 +74,8 @@ def test_two_workers_one_killed(farm, tmp_path):
     )
     for _ in range(3):
         process.stdout.readline()
-    os.kill(first.pid, signal.SIGKILL)
+    first.kill()
+    first.wait()
     _out, err = process.communicate(timeout=120)
     assert process.returncode == 1, err
     rows = rows_of(out / "report.jsonl")
