@@ -4,8 +4,10 @@
 """A batch: what it does, what it leaves alone, what it says, and how it goes on."""
 
 import hashlib
+import io
 import json
 import os
+import sys
 
 import pytest
 from framelet.core.settings import DenoiseSettings
@@ -304,3 +306,26 @@ def test_defects_have_kinds_and_numbers(scans, tmp_path):
     assert found["degenerate faces"] == (1, [99])
     assert found["edges with more than two faces"] == (2, [0, 1])
     assert found["loose vertices"] == (1, [64])
+
+
+class Terminal(io.StringIO):
+    """What takes a bar."""
+
+    def isatty(self):
+        return True
+
+
+def test_a_bar_on_a_terminal(scans, tmp_path, monkeypatch, capsys):
+    pytest.importorskip("tqdm", reason="tqdm is not installed")
+    (scans / "empty.obj").touch()
+    monkeypatch.setattr(sys, "stderr", Terminal())
+    assert batch(scans, "--out", tmp_path / "bar", *QUICK) == 1
+    shown = sys.stderr.getvalue()
+    assert "7/7" in shown and "1 failed" in shown and "empty.obj is empty." in shown
+    assert capsys.readouterr().out == ""
+    # Without tqdm there is a line a file.
+    monkeypatch.setitem(sys.modules, "tqdm", None)
+    monkeypatch.setattr(sys, "stderr", Terminal())
+    assert batch(scans, "--out", tmp_path / "lines", *QUICK) == 1
+    assert "7/7 [" not in sys.stderr.getvalue()
+    assert capsys.readouterr().out.count("vertices, moved by") == 6
