@@ -225,6 +225,8 @@ def on_this_computer(n_processes: int, environment: dict[str, str]) -> Iterator[
                     processes=True,
                     host="127.0.0.1",
                     dashboard_address=None,
+                    # On a port that is free, or Dask would warn of another run.
+                    scheduler_kwargs={"dashboard": False, "dashboard_address": "127.0.0.1:0"},
                     security=security,
                     silence_logs=logging.CRITICAL,
                     # How much a file takes is estimated before the work; a share for each is no limit.
