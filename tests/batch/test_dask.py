@@ -76,7 +76,7 @@ def test_two_workers_one_killed(farm, tmp_path):
         process.stdout.readline()
     first.kill()
     first.wait()
-    _out, err = process.communicate(timeout=120)
+    _out, err = process.communicate(timeout=600)
     assert process.returncode == 1, err
     rows = rows_of(out / "report.jsonl")
     # Every file once.

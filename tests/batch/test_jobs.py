@@ -82,7 +82,7 @@ def test_ctrl_c_ends_all_and_says_one_sentence(tmp_path):
     process.stdout.readline()
     children = _below(process.pid)
     os.killpg(process.pid, signal.SIGINT)  # as a terminal does
-    _out, err = process.communicate(timeout=60)
+    _out, err = process.communicate(timeout=600)
     assert process.returncode == 130
     assert err == "framelet: Interrupted; nothing was written.\n" or "had been written" in err
     _wait_for(lambda: not any(map(_runs, children)))

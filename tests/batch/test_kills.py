@@ -70,7 +70,7 @@ def test_interrupted_from_the_keyboard(tmp_path):
     process = start("batch", f"{tmp_path}/*.obj", "--out", tmp_path / "out", stdout=subprocess.PIPE)
     process.stdout.readline()
     process.send_signal(signal.SIGINT)
-    _out, err = process.communicate(timeout=60)
+    _out, err = process.communicate(timeout=600)
     assert process.returncode == 130
     assert "Traceback" not in err and "Interrupted" in err
     n_rows = len(rows_of(tmp_path / "out" / "report.jsonl"))
