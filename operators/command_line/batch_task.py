@@ -185,6 +185,8 @@ def _work_here(
         defects = defects_of(opened.file)
     entries = [{"name": name, **entry(report)} for name, report in outcome.done]
     found = account(entries, [{"name": name, "reason": reason} for name, reason in outcome.refusals])
+    # Vertices where fans of faces meet show in the rings of the engine only.
+    defects += [defect for defect in found["defects"] if defect["kind"] == "non-manifold vertices"]
     return found | {"beside_input": beside, "defects": defects}
 
 

@@ -306,6 +306,7 @@ def test_defects_have_kinds_and_numbers(scans, tmp_path):
     assert found["degenerate faces"] == (1, [99])
     assert found["edges with more than two faces"] == (2, [0, 1])
     assert found["loose vertices"] == (1, [64])
+    assert found["non-manifold vertices"][0] >= 2
 
 
 class Terminal(io.StringIO):
