@@ -107,11 +107,22 @@ def _row(line: bytes) -> dict[str, Any] | None:
 
 
 def is_done(task: Task, row: dict[str, Any] | None) -> bool:
-    """Return whether the row says that the task was done, and input, settings and result are as it says."""
+    """Return whether the row says that the task was done, and input, settings and result are as it says.
+
+    What they refer to, as materials and buffers, counts as well.
+    """
     return (
         row is not None
         and row["status"] == DONE
         and row.get("key") == task.key
         and row.get("input_sha256") == hash_of(task.source) is not None
         and row.get("output_sha256") == hash_of(task.target)
+        and _are_as_known(task.source, row.get("beside_input"))
+        and _are_as_known(task.target, row.get("beside_output"))
     )
+
+
+def _are_as_known(path: str, beside: Any) -> bool:
+    """Return whether files beside a file have the hashes in a row; a hash of None stands for no file."""
+    folder = Path(path).parent
+    return all(hash_of(folder / name) == known for name, known in (beside or {}).items())
