@@ -65,7 +65,7 @@ def pages(rng):
     points, faces = [back], []
     for page in range(n_pages):
         turn = 2 * np.pi * page / n_pages
-        points.append(back + [0, np.cos(turn), np.sin(turn)])
+        points.append(back + np.array([0.0, np.cos(turn), np.sin(turn)]))
         own = length * (page + 1)
         faces += [[k, k + 1, own + k + 1, own + k] for k in range(length - 1)]
     return SurfaceMesh.from_faces(np.concatenate(points), faces)
@@ -322,17 +322,17 @@ def limits(draw, mesh, **given):
     edge = float(edge) if np.isfinite(edge) else float(min(size, 1.0))
     weights = [None, rng.random(n), (rng.random(n) < 0.5).astype(np.float32), np.zeros(n), np.ones(n)]
     lines = mesh.edges[rng.random(mesh.n_edges) < rng.choice([0.05, 0.5])]
-    values = dict(
-        weights=weights[draw(st.sampled_from([0, 1, 2, 4, 3]))],
-        feature_edges=draw(st.sampled_from([None, lines, rng.integers(max(n, 1), size=(3, 2))])),
-        max_displacement=draw(st.sampled_from([None, 0.0, 1e-3 * edge, 0.3 * edge, 5.0 * edge])),
-        along_normals=draw(st.booleans()),
-        keep_volume=draw(st.booleans()),
-        weld_distance=draw(st.sampled_from([None, 0.0, 0.1 * edge, 1.1 * edge])),
-        weldable=draw(st.sampled_from([None, rng.random(n) < 0.5])),
-        repair_folds=draw(st.booleans()),
-        straighten_borders=draw(st.booleans()),
-    )
+    values = {
+        "weights": weights[draw(st.sampled_from([0, 1, 2, 4, 3]))],
+        "feature_edges": draw(st.sampled_from([None, lines, rng.integers(max(n, 1), size=(3, 2))])),
+        "max_displacement": draw(st.sampled_from([None, 0.0, 1e-3 * edge, 0.3 * edge, 5.0 * edge])),
+        "along_normals": draw(st.booleans()),
+        "keep_volume": draw(st.booleans()),
+        "weld_distance": draw(st.sampled_from([None, 0.0, 0.1 * edge, 1.1 * edge])),
+        "weldable": draw(st.sampled_from([None, rng.random(n) < 0.5])),
+        "repair_folds": draw(st.booleans()),
+        "straighten_borders": draw(st.booleans()),
+    }
     return Limits(Region(**values | given), draw(st.sampled_from([None, rng.random(n) < 0.7])))
 
 

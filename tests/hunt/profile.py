@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How many examples a property is tried on.
 
-In `make test` there are 100, always the same. `FRAMELET_HUNT=2000` tries so many new ones; `make hunt` does so.
-A failure prints a line `@reproduce_failure(...)`, to be put above the test.
+In `make test` there are 100, always the same. `FRAMELET_HUNT=2000` tries so many new ones; `make hunt` does
+so. A failure prints a line `@reproduce_failure(...)`, to be put above the test.
 """
 
 import os
