@@ -35,7 +35,7 @@ demo: ## Denoise a noisy mesh without a screen; pictures and numbers go to build
 test: test-core test-$(BLENDER) test-installed-$(BLENDER) ## Test on one Blender: core, operators, installed zip
 
 .PHONY: test-all
-test-all: lint test-core test-training $(BLENDERS:%=test-%) $(BLENDERS:%=test-installed-%) ## Lint, then test on every supported Blender
+test-all: lint test-core numbers test-training $(BLENDERS:%=test-%) $(BLENDERS:%=test-installed-%) ## Lint, then test on every supported Blender
 
 .PHONY: lint
 lint: ## Check style and types
@@ -51,7 +51,17 @@ format: ## Format the code and fix what ruff can fix
 
 .PHONY: test-core
 test-core: ## Test core/, files and the release rules on plain Python and NumPy
-	$(ENVIRONMENT) run core --timeout $(TIMEOUT) -- $(PYTEST) tests/core tests/files tests/batch tests/release tests/benchmarks
+	$(ENVIRONMENT) run core --timeout $(TIMEOUT) -- $(PYTEST) tests/core tests/hunt tests/golden tests/files tests/batch tests/release tests/benchmarks
+
+.PHONY: golden
+golden: ## Make the table of golden checksums again, after a change that is meant
+	$(ENVIRONMENT) run core --timeout $(TIMEOUT) -- tests/golden/results.py
+
+.PHONY: numbers
+numbers: ## Compare the results of NumPy 1.26 and 2
+	$(ENVIRONMENT) run numpy-1.26 --timeout $(TIMEOUT) -- tests/golden/results.py --bits build/golden/numpy-1.csv
+	$(ENVIRONMENT) run core --timeout $(TIMEOUT) -- tests/golden/results.py --bits build/golden/numpy-2.csv \
+	  --same-as build/golden/numpy-1.csv
 
 .PHONY: fuzz
 fuzz: ## Read 5,000 damaged files

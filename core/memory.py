@@ -136,7 +136,7 @@ def _is_on_quads(frame: Any, n_neighbors: float) -> bool:
 
 
 def _walks_of_a_cell(frame: Any) -> int:
-    """Return how many walks through each spoke of a corner fill the taps beyond it; 0 for masks on vertices."""
+    """Return how many walks through each spoke of a corner fill the taps beyond it; 0 for other masks."""
     if isinstance(frame, str):
         return _CELL_WALKS.get(frame, 0)
     return 4 * frame.reach**2 if frame.is_cell_centered else 0

@@ -15,8 +15,9 @@ from .profile import examples
 ROUNDING = 1e-6
 """Mean edge lengths by which results may differ in double precision."""
 
-SINGLE = 2e-3
-"""The same for learned shrinkage, whose kernels work in single precision."""
+SINGLE = 0.02
+"""The same for learned shrinkage, whose kernels work in single precision: on strips and small islands
+averages shrink the surface to nearly nothing, which amplifies rounding; elsewhere it is far less."""
 
 
 def moved_mesh(change, mesh, rng):
