@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What every preset makes of a few meshes that are made in code: the table that guards against silent change.
 
-Where a change is meant, as of the net's weights, make the table again and commit it: `make golden` does so. A row
-holds checksums: the root mean square of the displacements, and sums of them with weights that look
+Where a change is meant, as of the net's weights, make the table again and commit it: `make golden` does so.
+A row holds checksums: the root mean square of the displacements, and sums of them with weights that look
 random, all in mean edge lengths. They tell any change from rounding, which differs between processors.
 
 `--bits FILE` writes the bits of all results instead, and `--same-as FILE` compares them with those of another
@@ -86,7 +86,7 @@ NOISE = 0.2
 
 
 def results(core, names=None):
-    """Yield mesh, preset, edge length, positions before and after, shape (N, 3), for each preset that fits."""
+    """Yield mesh, preset, edge length, and positions (N, 3) before and after, for each preset that fits."""
     for mesh, build in MESHES.items():
         points, faces = build()
         points = (points + NOISE * numbers(points.shape, 7)).astype(np.float32)
