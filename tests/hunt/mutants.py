@@ -31,7 +31,10 @@ ROOMS = {
         "core/transform/*.py",
         ["test_transform", "test_levels", "test_adaptive", "test_every_frame"],
     ),
-    "shrinkage": ("core/methods/{shrinkage,proximal}.py", ["test_shrinkage", "test_split_bregman"]),
+    "shrinkage": (
+        "core/methods/{shrinkage,proximal}.py",
+        ["test_shrinkage", "test_split_bregman", "test_library", "test_adaptive"],
+    ),
     "files": ("operators/files/*.py", ["files/test_formats", "files/test_safe_write", "files/test_digits"]),
 }
 COMPARED = {

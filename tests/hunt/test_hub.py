@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A vertex with 100,000 triangles: what costs the square of it is refused before the work, all else is done."""
+"""A vertex with 100,000 triangles: what costs its square is refused before the work, all else is done."""
 
 from time import perf_counter
 
