@@ -69,9 +69,9 @@ def bilateral_filter(problem: Problem) -> Solution:
         ) -> None:
             center, member = pairs[start // blocks.block_size]
             squared, height = _offsets(points, normals, center, member)
-            weight = np.exp(squared * dtype(-0.5 / settings.sigma_c**2))
+            weight = _bell(squared, settings.sigma_c)
             if sigma_s > 0.0:
-                weight *= np.exp(height * height * dtype(-0.5 / sigma_s**2))
+                weight *= _bell(height * height, sigma_s)
             weight[squared > 4.0 * settings.sigma_c**2] = 0.0
             total = np.bincount(center - start, weight, stop - start)
             moved = np.bincount(center - start, weight * height, stop - start)
@@ -87,6 +87,13 @@ def bilateral_filter(problem: Problem) -> Solution:
         if change < settings.tolerance:
             return Solution(points, iteration, False, settings)
     return Solution(points, settings.iterations, False, settings)
+
+
+def _bell(squared: NDArray[np.floating], sigma: float) -> NDArray[np.floating]:
+    """Return exp(-squared / 2 sigma^2), of the same dtype; for the narrowest bells 0 but at 0."""
+    most = float(np.finfo(squared.dtype).max)
+    with np.errstate(over="ignore"):
+        return np.exp(squared * squared.dtype.type(-min(0.5 / sigma / sigma, most)))
 
 
 def _offsets(

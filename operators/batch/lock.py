@@ -84,5 +84,5 @@ def _owner(path: Path) -> str:
         owner = json.loads(path.read_text("utf-8"))
         age = max(0.0, time.time() - owner["since"])
         return f"process {owner['pid']} on {owner['host']}, since {age:,.0f} s"
-    except (OSError, ValueError, KeyError, TypeError):
+    except (OSError, ValueError, RecursionError, KeyError, TypeError):
         return "another run"

@@ -99,7 +99,7 @@ def _row(line: bytes) -> dict[str, Any] | None:
     """Return a row, if a line is one."""
     try:
         row = json.loads(line)
-    except ValueError:
+    except (ValueError, RecursionError):
         return None
     kinds = {"output": str, "status": str, "ended": int | float}
     is_row = isinstance(row, dict) and all(isinstance(row.get(key), kind) for key, kind in kinds.items())

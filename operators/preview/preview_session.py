@@ -282,7 +282,8 @@ class PreviewSession:
         def note(fraction: float) -> None:
             self.fraction = fraction
 
-        return compute_pictures(job, outcome_of, show, note)
+        with shortage_told(job.name):
+            return compute_pictures(job, outcome_of, show, note)
 
     def _take(self, job: DenoiseJob, picture: Picture | None, error: Exception | None) -> None:
         """Show an answer of the thread; with an error, the original and a sentence."""

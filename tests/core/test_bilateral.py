@@ -104,3 +104,13 @@ def test_noise_goes_down(rng):
     )
     result = clean.with_vertices(denoise(noise, DenoiseSettings(method="BILATERAL", iterations=5)).vertices)
     assert compare(result, clean).mean_angle < 0.6 * compare(noise, clean).mean_angle
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+@pytest.mark.parametrize("sigma_s", [5e-324, 1.5e-164, 1e-20])
+def test_heights_next_to_zero_let_nothing_move(sigma_s, dtype, rng):
+    """Their squares are no numbers any more."""
+    mesh = noisy(triangle_torus(), rng)
+    result = denoise(mesh, DenoiseSettings(method="BILATERAL", sigma_s=sigma_s), dtype=dtype)
+    assert lengths(result.vertices - mesh.vertices).max() < 1e-6
