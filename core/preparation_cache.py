@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import DTypeLike
 
-from .blocks import Blocks
 from .errors import FrameletError
 from .limits.placed import Placed
 from .mesh.connectivity import Connectivity
@@ -52,9 +51,7 @@ class PreparationCache:
 
         The mesh may be edited in place afterwards: arrays that can be written to are copied.
         """
-        with Blocks(settings.threads) as blocks:
-            known = (kept for kept in reversed(self._kept) if kept.has_topology_of(surface, blocks))
-            previous = next(known, None)
+        previous = next((kept for kept in reversed(self._kept) if kept.has_topology_of(surface)), None)
         prepared = prepare_again(surface, settings, previous, dtype=dtype, should_stop=should_stop)
         # One for each topology: the old one would only serve if its positions came back.
         self._kept = [kept for kept in self._kept if kept is not previous]

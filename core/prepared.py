@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-from .blocks import Blocks
+from .blocks import BLOCK_SIZE, Blocks
 from .learned.engine import FaceEngine
 from .limits.constraints import Constraints, Corners, find_constraints, find_corners
 from .limits.face_watch import FaceState
@@ -27,12 +27,9 @@ from .mesh.locality import Reordering, is_scattered, reorder, spatial_order
 from .mesh.normalization import normalize
 from .mesh.surface_mesh import SurfaceMesh
 from .methods.problem import Callback, Problem
-from .methods.shrinkage import SEPARABLE
+from .methods.proximal import SEPARABLE
 from .settings import DEFAULT_PRESET, PRESETS, DenoiseSettings
 from .transform import FrameTransform, choose_frame, make_transform
-
-COMPARED_AT_ONCE = 2**18
-"""Rows of two arrays that are compared in one piece."""
 
 TOPOLOGY = tuple(item.name for item in fields(SurfaceMesh) if item.name != "vertices")
 
@@ -88,10 +85,9 @@ class Prepared:
         """Tell whether this can be used for a mesh and settings: all arrays are compared value by value."""
         return self.has_topology_of(surface) and self.fits_positions(surface, settings, dtype)
 
-    def has_topology_of(self, surface: SurfaceMesh, blocks: Blocks | None = None) -> bool:
-        """Tell whether this was made for a mesh with the same faces and edges; `blocks` are threads."""
-        own = self.surface
-        return all(_is_same(getattr(own, name), getattr(surface, name), blocks) for name in TOPOLOGY)
+    def has_topology_of(self, surface: SurfaceMesh) -> bool:
+        """Tell whether this was made for a mesh with the same faces and edges."""
+        return all(_is_same(getattr(self.surface, name), getattr(surface, name)) for name in TOPOLOGY)
 
     def fits_positions(
         self, surface: SurfaceMesh, settings: DenoiseSettings, dtype: DTypeLike = np.float32
@@ -173,6 +169,7 @@ def prepare(
     dtype: DTypeLike = np.float32,
     previous: Prepared | None = None,
     should_stop: Callable[[], bool] | None = None,
+    block_size: int = BLOCK_SIZE,
 ) -> Prepared:
     """Do all of a run that does not depend on λ, μ, δ, iterations, tolerance and movable vertices.
 
@@ -191,6 +188,8 @@ def prepare(
         faces are the same, its neighborhoods are used.
     should_stop : callable, optional
         Asked many times; returns True to stop.
+    block_size : int, optional
+        Vertices in a block of work for a thread.
 
     Returns
     -------
@@ -207,7 +206,7 @@ def prepare(
     settings = settings or PRESETS[DEFAULT_PRESET].settings
     if previous is not None and not previous.has_topology_of(surface):
         previous = None
-    return prepare_again(surface, settings, previous, connectivity, dtype, should_stop)
+    return prepare_again(surface, settings, previous, connectivity, dtype, should_stop, block_size=block_size)
 
 
 def prepare_once(
@@ -230,6 +229,7 @@ def prepare_again(
     should_stop: Callable[[], bool] | None = None,
     *,
     is_kept: bool = True,
+    block_size: int = BLOCK_SIZE,
 ) -> Prepared:
     """Do what `prepare` does, with something `previous` that is known to have the topology of the mesh.
 
@@ -241,7 +241,7 @@ def prepare_again(
         # Of a mesh that is known only the positions are new.
         known = surface if previous is None else previous.surface
         surface = known.with_vertices(surface.vertices).frozen()
-    return _prepare(surface, settings, previous, connectivity, dtype, should_stop)
+    return _prepare(surface, settings, previous, connectivity, dtype, should_stop, block_size)
 
 
 def _prepare(
@@ -251,6 +251,7 @@ def _prepare(
     connectivity: Connectivity | None,
     dtype: DTypeLike,
     should_stop: Callable[[], bool] | None,
+    block_size: int,
 ) -> Prepared:
     """Prepare a mesh, with the neighborhoods of something that has the same topology, if there is one."""
     reordering = None
@@ -258,7 +259,7 @@ def _prepare(
         connectivity, reordering = previous.connectivity, previous.reordering
         if reordering is not None:
             reordering = reordering.with_vertices(surface.vertices)
-    blocks = Blocks(settings.threads)
+    blocks = Blocks(settings.threads, block_size)
     with blocks.stopped_by(should_stop):
         check_positions(surface)  # while its vertices have the numbers that the caller knows
         if connectivity is None and is_scattered(surface):
@@ -319,17 +320,9 @@ def _key(settings: DenoiseSettings, dtype: DTypeLike) -> tuple[Any, ...]:
     return (settings.method, settings.boundary, np.dtype(dtype), *frame)
 
 
-def _is_same(first: NDArray, second: NDArray, blocks: Blocks | None = None) -> bool:
+def _is_same(first: NDArray, second: NDArray) -> bool:
     """Tell whether two arrays have the same type, shape and values."""
-    if first is second:
-        return True
-    if first.dtype != second.dtype or first.shape != second.shape:
-        return False
-
-    def kernel(start: int, stop: int) -> bool:
-        return np.array_equal(first[start:stop], second[start:stop])
-
-    return all((blocks or Blocks(1)).with_block_size(COMPARED_AT_ONCE).run(kernel, len(first)))
+    return first is second or (first.dtype == second.dtype and np.array_equal(first, second))
 
 
 def _line_strength(settings: DenoiseSettings) -> float:

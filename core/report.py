@@ -18,30 +18,30 @@ from .noise import NoiseEstimate
 from .settings import DenoiseSettings
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class DenoiseReport:
     """An account of a run; lengths are in the units of the mesh."""
 
     n_vertices: int
     n_faces: int
-    n_moved: int
+    n_moved: int = 0
     """Vertices that moved at all."""
-    iterations: int
+    iterations: int = 0
     """Iterations that ran, fewer than asked for if the tolerance was met or the run was stopped."""
-    is_stopped: bool
+    is_stopped: bool = False
     """True if the run was stopped from outside."""
-    mean_edge_length: float
-    displacement_rms: float
-    displacement_max: float
-    flipped_faces: int
+    mean_edge_length: float = 0.0
+    displacement_rms: float = 0.0
+    displacement_max: float = 0.0
+    flipped_faces: int = 0
     """Faces whose normal turned by more than a right angle, as where a fold or a spike was smoothed out."""
-    volume_change: float | None
+    volume_change: float | None = None
     """(after - before) / before; None unless the mesh is closed."""
-    irregular_vertices: int
+    irregular_vertices: int = 0
     """Vertices that took the stencil's rule for irregular vertices."""
-    boundary_vertices: int
-    non_manifold_vertices: int
-    loose_vertices: int
+    boundary_vertices: int = 0
+    non_manifold_vertices: int = 0
+    loose_vertices: int = 0
     """Vertices without a face; they do not move."""
     seconds: float
     settings: DenoiseSettings
@@ -75,18 +75,7 @@ def stopped_report(surface: SurfaceMesh, settings: DenoiseSettings, began: float
     return DenoiseReport(
         n_vertices=surface.n_vertices,
         n_faces=surface.n_faces,
-        n_moved=0,
-        iterations=0,
         is_stopped=True,
-        mean_edge_length=0.0,
-        displacement_rms=0.0,
-        displacement_max=0.0,
-        flipped_faces=0,
-        volume_change=None,
-        irregular_vertices=0,
-        boundary_vertices=0,
-        non_manifold_vertices=0,
-        loose_vertices=0,
         seconds=perf_counter() - began,
         settings=settings,
     )

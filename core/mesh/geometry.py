@@ -182,27 +182,6 @@ def vertex_normals(surface: SurfaceMesh) -> NDArray[np.float64]:
     return unit_vectors(np.stack(sums, axis=1).astype(np.float64, copy=False))
 
 
-def signed_volume(surface: SurfaceMesh, area_vectors: NDArray[np.float64] | None = None) -> float:
-    """Return the enclosed volume, in cubed scene units, of a closed and consistently oriented mesh.
-
-    Faces with more than three corners count as fans around the mean of their corners. `area_vectors` are
-    those of `face_area_vectors`, if they are known already.
-    """
-    if not surface.n_faces:
-        return 0.0
-    vectors = face_area_vectors(surface) if area_vectors is None else area_vectors
-    sizes = surface.face_sizes()
-    filled = np.flatnonzero(sizes > 0)
-    # For a triangle every point of its plane does as well as the mean; the first corner costs least.
-    tip = surface.vertices[surface.corner_vertex[surface.face_offset[:-1][filled]]].astype(np.float64)
-    for size in np.unique(sizes[sizes > 3]):
-        faces = sizes[filled] == size
-        corner = surface.face_offset[:-1][filled[faces], None] + np.arange(size)
-        tip[faces] = surface.vertices[surface.corner_vertex[corner]].mean(axis=1, dtype=np.float64)
-    tip -= tip.mean(axis=0)  # near the origin, so that a mesh far away loses no digits
-    return float(np.einsum("fi,fi->", tip, vectors[filled]) / 3.0)
-
-
 def face_tips(
     points: NDArray[np.float64], surface: SurfaceMesh, start: int, stop: int
 ) -> NDArray[np.float64]:

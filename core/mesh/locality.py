@@ -25,7 +25,6 @@ WINDOW = 192
 
 _WINDOWS = 256
 _NEAR = 64  # vertices on one page of the look-up
-_ITEMS_AT_ONCE = 2**16
 _CURVE_BITS = 10  # for each coordinate; three of them fit into 32 bits
 
 
@@ -60,13 +59,14 @@ class Reordering:
         return result
 
 
-def is_scattered(surface: SurfaceMesh) -> bool:
+def is_scattered(surface: SurfaceMesh, smallest: int = SMALLEST) -> bool:
     """Tell whether renumbering a mesh pays: it is large, and neighbors have far-off numbers.
 
     Of windows of consecutive corners, spread over the mesh, it counts how many pages of vertices they touch.
-    A few streams of vertices side by side, as subdivision leaves them, are not scattered.
+    A few streams of vertices side by side, as subdivision leaves them, are not scattered. Meshes with fewer
+    vertices than `smallest` stay in the caches in any order.
     """
-    if surface.n_vertices < SMALLEST or surface.n_corners < WINDOW:
+    if surface.n_vertices < smallest or surface.n_corners < WINDOW:
         return False
     start = np.linspace(0, surface.n_corners - WINDOW, _WINDOWS).astype(np.int64)
     pages = np.sort(surface.corner_vertex[start[:, None] + np.arange(WINDOW)] // _NEAR, axis=1)
@@ -137,7 +137,7 @@ def reorder(
     -------
     Reordering
     """
-    blocks = (blocks or Blocks(1)).with_block_size(_ITEMS_AT_ONCE)
+    blocks = blocks or Blocks(1)
     n_vertices = surface.n_vertices
     old_number = np.asarray(vertex_order, np.int32)
     new_number = _inverse(old_number, blocks)

@@ -19,9 +19,6 @@ from ..mesh.ragged import Ragged
 from .members import Members
 from .straight import TIE
 
-CANDIDATES_PER_BLOCK = 2**18
-"""Candidates that a block may hold, so that its arrays stay small however wide the rings are."""
-
 CANDIDATES_AT_ONCE = 2**15
 """Candidates whose angles are measured at once, in the cache."""
 
@@ -77,9 +74,9 @@ def dilate(
             if far is not None:
                 _dilate_once(points, far, offset, centers, rings[int(step) * far_distance], order)
 
-    blocks.with_block_size(max(1, CANDIDATES_PER_BLOCK // (8 * max(distances)))).run(
-        kernel, members.connectivity.n_vertices
-    )
+    # About as many candidates in a block, however wide the rings are.
+    small = blocks.with_block_size(max(1, blocks.block_size // max(distances)))
+    small.run(kernel, members.connectivity.n_vertices)
     return Members(members.connectivity, near, far)
 
 

@@ -20,7 +20,7 @@ from ..stencils.members import one_ring_members
 from .adaptive_level import AdaptiveLevel, Neighbors, ring_neighbors
 from .frame_transform import FrameTransform
 from .lattice_level import LatticeLevel
-from .level import Chunk
+from .level import Bands
 
 
 def make_transform(
@@ -126,7 +126,7 @@ def _adaptive_transform(
     for index in range(levels):
         dilated = dilate(members, low.vertices, adjacency, index, 1, blocks)
         neighbors.append(ring_neighbors(dilated, boundary))
-        _check_reached(index, not index or len(neighbors[-1].neighbor) > 0)
+        _check_reached(index, not index or len(neighbors[-1].rows.items) > 0)
         if index + 1 < levels:
             level = AdaptiveLevel(neighbors[-1], family, one, dtype, blocks)
             points = np.ascontiguousarray(low.vertices.T, dtype)
@@ -142,7 +142,7 @@ def _adaptive_transform(
     return FrameTransform.of_levels(tuple(stages), dtype, name)
 
 
-def _ignore(_: int, __: Chunk) -> None:
+def _ignore(_: int, __: Bands) -> None:
     """Do nothing with the high bands of a chunk."""
 
 

@@ -41,11 +41,12 @@ def end_with_parent() -> None:
 
 def serve() -> None:
     """Carry out jobs until there are no more."""
-    from framelet.core.processors import use_processors
+    from framelet.core.processors import set_default_threads
     from framelet.operators.batch.workers import MARK
     from framelet.operators.command_line.batch_task import carry_out
 
-    use_processors(int(os.environ.get("FRAMELET_THREADS", "0")))
+    if threads := os.environ.get("FRAMELET_THREADS"):
+        set_default_threads(int(threads))
     for line in sys.stdin.buffer:
         row = carry_out(json.loads(line))
         sys.stdout.write(f"\n{MARK}{json.dumps(row)}\n")

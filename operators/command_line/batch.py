@@ -128,10 +128,10 @@ def _results(
 
 def _environment(n_workers: int) -> dict[str, str]:
     """Return environment variables by which processes share the cores, and find the Blender they run in."""
-    from ...core.processors import available_cores
+    from ...core.processors import default_threads
     from .blender_process import BLENDER
 
-    threads = str(max(1, available_cores() // n_workers))
+    threads = str(max(1, default_threads() // n_workers))
     environment = {THREADS: threads}
     bpy = sys.modules.get("bpy")
     binary = getattr(getattr(bpy, "app", None), "binary_path", "")

@@ -7,7 +7,6 @@ import pytest
 from framelet.core import BANKS, SurfaceMesh, connect, make_stencil
 from framelet.core.blocks import Blocks
 from framelet.core.mesh.distance_rings import distance_rings, edge_adjacency, face_adjacency
-from framelet.core.stencils import dilation
 from framelet.core.stencils.dilation import dilate
 from framelet.core.stencils.members import one_ring_members, quad_members, triangle_members
 from meshes import MESHES, flipped, noisy, quad_grid, quad_torus, triangle_grid, triangle_torus, union
@@ -135,11 +134,10 @@ def test_what_is_too_small_for_a_ring_has_no_members():
     assert (slots[1:, 6:] != np.arange(6, mesh.n_vertices)).any(axis=0).all()
 
 
-def test_blocks_do_not_change_members(rng, monkeypatch):
+def test_blocks_do_not_change_members(rng):
     mesh = noisy(union(flipped(triangle_torus()), MESHES["mixed sheet"]()), rng)
     plain = members_at(mesh, 2, 3)
-    monkeypatch.setattr(dilation, "CANDIDATES_PER_BLOCK", 7 * 64 * 8)
-    with Blocks(3) as blocks:
+    with Blocks(3, block_size=7 * 64) as blocks:
         blocked = members_at(mesh, 2, 3, blocks)
     assert np.array_equal(plain.near, blocked.near)
     assert np.array_equal(plain.far, blocked.far)

@@ -12,10 +12,11 @@ from framelet.core.limits.folds import damp_until_valid
 from framelet.core.mesh.carrier import Carrier
 from framelet.core.mesh.connectivity import connect
 from framelet.core.mesh.corner_lists import corners_around
-from framelet.core.mesh.geometry import face_area_vectors, mean_edge_length, signed_volume, vertex_normals
+from framelet.core.mesh.geometry import face_area_vectors, mean_edge_length, vertex_normals
 from mesh_files import mesh_files, read_mesh
 from meshes import MESHES, faces_of, flipped, noisy, quad_torus, triangle_grid, triangle_torus
 from region_cases import METHODS, exploded
+from twins import signed_volume
 
 TURN_OVER = 4.0
 """Standard deviation of random motions, in edge lengths, that leave hardly a face as it was."""
