@@ -142,6 +142,17 @@ class Blocks:
         parts = self.run(lambda start, stop: start + np.flatnonzero(is_wanted(start, stop)), n_items)
         return np.concatenate(parts) if parts else np.zeros(0, np.intp)
 
+    def take(self, values: NDArray, index: NDArray[np.integer]) -> NDArray:
+        """Return `values[index]`, shape (n, ...), looked up on threads; the indices are trusted."""
+        values = np.ascontiguousarray(values)
+        result = np.empty((len(index), *values.shape[1:]), values.dtype)
+
+        def kernel(start: int, stop: int) -> None:
+            values.take(index[start:stop], axis=0, out=result[start:stop], mode="clip")
+
+        self.run(kernel, len(index))
+        return result
+
     def together(self, *tasks: Callable[[], Any]) -> list[Any]:
         """Call functions at the same time, as far as there are threads, and return what they return."""
         return self.with_block_size(1).run(lambda start, _: tasks[start](), len(tasks))

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .errors import TooLargeError
+from .frames import BANKS
 from .mesh.surface_mesh import SurfaceMesh
 from .settings import DenoiseSettings
 
@@ -38,9 +39,6 @@ _PER_CELL_TAP = 105
 _PER_WALKED_TAP = 20
 _PER_BAND = 12  # three coordinates in single precision
 _FIXED = 32 * 2**20  # blocks in work
-
-_WIDE_FRAMES = {"BOX_SPLINE_FOUR_DIRECTION": 12} | {f"B_SPLINE_{n}": (n + 1) ** 2 for n in range(1, 7)}
-_CELL_FRAMES = ("BOX_SPLINE_FOUR_DIRECTION", "B_SPLINE_1", "B_SPLINE_3", "B_SPLINE_5")
 
 
 def estimated_bytes(
@@ -115,17 +113,17 @@ def _taps_bytes(n_vertices: int, n_corners: int, settings: DenoiseSettings) -> i
     n_sites: float = n_vertices
     n_levels = settings.levels
     total = 0.0
-    if frame in _WIDE_FRAMES or not isinstance(frame, str):
-        n_taps = _WIDE_FRAMES[frame] if isinstance(frame, str) else frame.n_taps
-        if frame in _CELL_FRAMES or getattr(frame, "is_cell_centered", False):
+    bank = BANKS.get(frame) if isinstance(frame, str) else frame
+    if bank is not None and (bank is frame or bank.is_cell_centered or bank.reach > 1):
+        n_taps = bank.n_taps
+        if bank.is_cell_centered:
             # Cells are pairs of triangles or quads; at coarser levels the sites are the vertices.
             is_triangles = n_neighbors > 5.0
             total += _PER_CELL_TAP * n_taps * (n_corners / 2 if is_triangles else n_corners / 4)
             n_levels -= 1
         total += n_levels * n_sites * n_taps * _PER_WALKED_TAP
         return int(total)
-    is_quads = frame.startswith("LINEAR") or (frame == "AUTO" and n_neighbors <= 5.0)
-    n_taps = 9 if is_quads else 7
+    n_taps = bank.n_taps if bank else (9 if n_neighbors <= 5.0 else 7)
     n_bands = 3 if settings.shrinkage in ("VECTOR", "SCALAR") else n_taps
     per_level = 4 * n_taps + 2 * _PER_BAND * n_bands
     return int(n_sites * (per_level * n_levels + LATTICE_ONCE * (n_levels > 1)))

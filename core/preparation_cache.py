@@ -14,7 +14,7 @@ from .errors import FrameletError
 from .limits.placed import Placed
 from .mesh.connectivity import Connectivity
 from .mesh.surface_mesh import SurfaceMesh
-from .prepared import Prepared, prepare_again, prepare_once
+from .prepared import Prepared, prepare_again
 from .settings import DenoiseSettings
 
 MAX_BYTES = 2**30
@@ -84,10 +84,6 @@ def prepared_for(
     known : Prepared or PreparationCache or None
         What was prepared before, or what keeps it.
 
-    Returns
-    -------
-    Prepared
-
     Raises
     ------
     FrameletError
@@ -99,7 +95,8 @@ def prepared_for(
     if isinstance(known, PreparationCache):
         return known.prepare(surface, settings, dtype, should_stop)
     if known is None:
-        return prepare_once(surface, settings, connectivity, dtype, should_stop)
+        # For one run, during which nobody may write to the mesh.
+        return prepare_again(surface, settings, None, connectivity, dtype, should_stop, is_kept=False)
     if not known.fits(surface, settings, dtype):
         raise FrameletError("This was prepared for another mesh or other stencils; prepare it again.")
     return known

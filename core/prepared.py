@@ -23,6 +23,7 @@ from .limits.placed import Placed
 from .limits.straight_borders import find_curves, straightened
 from .mesh.checks import check_positions, check_surface
 from .mesh.connectivity import Connectivity, connect
+from .mesh.geometry import coordinate_rows
 from .mesh.locality import Reordering, is_scattered, reorder, spatial_order
 from .mesh.normalization import normalize
 from .mesh.surface_mesh import SurfaceMesh
@@ -191,10 +192,6 @@ def prepare(
     block_size : int, optional
         Vertices in a block of work for a thread.
 
-    Returns
-    -------
-    Prepared
-
     Raises
     ------
     Stopped
@@ -207,17 +204,6 @@ def prepare(
     if previous is not None and not previous.has_topology_of(surface):
         previous = None
     return prepare_again(surface, settings, previous, connectivity, dtype, should_stop, block_size=block_size)
-
-
-def prepare_once(
-    surface: SurfaceMesh,
-    settings: DenoiseSettings,
-    connectivity: Connectivity | None,
-    dtype: DTypeLike,
-    should_stop: Callable[[], bool] | None,
-) -> Prepared:
-    """Do what `prepare` does for one run, during which nobody may write to the mesh: it is not copied."""
-    return prepare_again(surface, settings, None, connectivity, dtype, should_stop, is_kept=False)
 
 
 def prepare_again(
@@ -241,19 +227,6 @@ def prepare_again(
         # Of a mesh that is known only the positions are new.
         known = surface if previous is None else previous.surface
         surface = known.with_vertices(surface.vertices).frozen()
-    return _prepare(surface, settings, previous, connectivity, dtype, should_stop, block_size)
-
-
-def _prepare(
-    surface: SurfaceMesh,
-    settings: DenoiseSettings,
-    previous: Prepared | None,
-    connectivity: Connectivity | None,
-    dtype: DTypeLike,
-    should_stop: Callable[[], bool] | None,
-    block_size: int,
-) -> Prepared:
-    """Prepare a mesh, with the neighborhoods of something that has the same topology, if there is one."""
     reordering = None
     if previous is not None:
         connectivity, reordering = previous.connectivity, previous.reordering
@@ -292,12 +265,7 @@ def _prepare(
         # The fit of learned shrinkage pulls nothing along borders, so that their corners need no care.
         boundary = "FREE" if settings.method == "AUTO" else settings.boundary
         corners = find_corners(ordered, connectivity, boundary)
-        noisy = np.empty((3, surface.n_vertices), dtype)
-
-        def turn(start: int, stop: int) -> None:
-            noisy[:, start:stop] = normalized[start:stop].T
-
-        blocks.run(turn, surface.n_vertices)
+        noisy = coordinate_rows(normalized, blocks, dtype)
     return Prepared(
         surface,
         reordering,

@@ -89,26 +89,9 @@ def account(
     solution: Solution,
     began: float,
 ) -> DenoiseReport:
-    """Return the report of a finished run.
+    """Return the report of a finished run that began at a time of `time.perf_counter`.
 
-    Parameters
-    ----------
-    placed : Placed
-        The mesh that was given.
-    vertices : ndarray, shape (N, 3)
-        Its new positions.
-    finished : Finished
-        What was limited and mended.
-    problem : Problem
-        What the method was given.
-    solution : Solution
-        What it found.
-    began : float
-        Time of `time.perf_counter` at the start.
-
-    Returns
-    -------
-    DenoiseReport
+    `vertices`, shape (N, 3), are the new positions of the mesh that was given.
     """
     surface, watch = placed.original, finished.watch
     connectivity = watch.carrier.connectivity

@@ -8,15 +8,14 @@ bytes, which NumPy does about three times faster than three items of four.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from itertools import pairwise, starmap
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import DTypeLike, NDArray
 
 from ..blocks import Blocks
 from ..mesh.ragged import Chunk, Ragged
-from .parts import in_one_array
 
 CHUNKS_AT_ONCE = 4
 """Chunks in a piece of work for a thread."""
@@ -64,22 +63,11 @@ class Means:
 
     def inward(self, field: NDArray) -> NDArray:
         """Return a field of the items, shape (n, ...), as it is numbered inside."""
-        return self._taken(field, self._items)
+        return self._item_blocks.take(field, self._items)
 
     def outward(self, field: NDArray) -> NDArray:
         """Return a field that is numbered as inside, shape (n, ...), as the caller numbers it."""
-        return self._taken(field, self._place)
-
-    def _taken(self, field: NDArray, numbers: NDArray[np.int32]) -> NDArray:
-        """Return the entries of a field with some numbers, looked up on threads."""
-        field = np.ascontiguousarray(field)
-        result = np.empty((len(numbers), *field.shape[1:]), field.dtype)
-
-        def kernel(start: int, stop: int) -> None:
-            field.take(numbers[start:stop], axis=0, out=result[start:stop], mode="clip")
-
-        self._item_blocks.run(kernel, len(numbers))
-        return result
+        return self._item_blocks.take(field, self._place)
 
     def for_parts(self, use: Callable[[slice, NDArray[np.int32]], None]) -> None:
         """Call `use(part, members)` for parts of the items, with their members, shape (K, n), on threads."""
@@ -116,6 +104,17 @@ class Means:
 
         self.visit(field, use)
         return result
+
+
+def in_one_array(parts: Sequence[NDArray], dtype: DTypeLike) -> list[NDArray]:
+    """Return copies of arrays that lie in one array.
+
+    Small arrays that live long would lie between those that come and go, and keep their memory from going
+    back to the system.
+    """
+    flat = np.concatenate([np.zeros(0, dtype), *(part.ravel() for part in parts)], dtype=dtype)
+    ends = np.cumsum([0, *(part.size for part in parts)])
+    return [flat[slice(*ends[k : k + 2])].reshape(part.shape) for k, part in enumerate(parts)]
 
 
 def padded(rows: NDArray[np.floating]) -> NDArray[np.floating]:

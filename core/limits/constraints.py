@@ -83,10 +83,6 @@ def find_constraints(
         Precision of the rails.
     corners : Corners, optional
         What `find_corners` returns, if it is known already.
-
-    Returns
-    -------
-    Constraints
     """
     is_pinned = connectivity.is_loose.copy()
     if movable is not None:

@@ -63,10 +63,6 @@ def finish(
         Threads to work on.
     known : list of FaceState
         The faces of the input, if they are known already, see `FaceWatch`; afterwards they are.
-
-    Returns
-    -------
-    Finished
     """
     motion = Motion(found, carrier, region, placed.movable, placed.weights, constraints.pinned)
     watch = FaceWatch(carrier, blocks, known[0] if known else None)

@@ -120,10 +120,6 @@ def connect(
     labels : ndarray, shape (N,), int32, optional
         Different numbers of the vertices by which equals are told apart, instead of their own numbers: those
         of a mesh before it was renumbered.
-
-    Returns
-    -------
-    Connectivity
     """
     blocks = blocks or Blocks(1)
     half_edges = find_half_edges(surface, blocks)

@@ -6,21 +6,24 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import DTypeLike, NDArray
 
 from ..blocks import Blocks
 from .ragged import stretches
 from .surface_mesh import SurfaceMesh
 
 
-def coordinate_rows(vertices: NDArray[np.floating], blocks: Blocks | None = None) -> NDArray[np.float64]:
-    """Return a copy of positions, shape (N, 3), with coordinates in rows, shape (3, N), float64.
+def coordinate_rows(
+    vertices: NDArray[np.floating], blocks: Blocks | None = None, dtype: DTypeLike = np.float64
+) -> NDArray[Any]:
+    """Return a copy of positions, shape (N, 3), with coordinates in rows, shape (3, N), of a dtype.
 
     `blocks` are threads to work on.
     """
-    rows = np.empty((3, len(vertices)))
+    rows = np.empty((3, len(vertices)), dtype)
 
     def kernel(start: int, stop: int) -> None:
         rows[:, start:stop] = vertices[start:stop].T

@@ -132,17 +132,13 @@ def reorder(
         The vertices in their new order, each once; from `spatial_order`, say.
     blocks : Blocks, optional
         Threads to work on.
-
-    Returns
-    -------
-    Reordering
     """
     blocks = blocks or Blocks(1)
     n_vertices = surface.n_vertices
     old_number = np.asarray(vertex_order, np.int32)
     new_number = _inverse(old_number, blocks)
-    corner_vertex = _taken(new_number, surface.corner_vertex, blocks)
-    edges = _taken(new_number, surface.edges.reshape(-1), blocks).reshape(-1, 2)
+    corner_vertex = blocks.take(new_number, surface.corner_vertex)
+    edges = blocks.take(new_number, surface.edges.reshape(-1)).reshape(-1, 2)
 
     sizes = surface.face_sizes()
     filled = np.minimum(surface.face_offset[:-1], max(surface.n_corners - 1, 0))
@@ -155,7 +151,6 @@ def reorder(
         offset = np.concatenate(([0], np.cumsum(sizes[face_order]))).astype(np.int32)
     new_edge = _inverse(edge_order, blocks)
     moved_vertex, moved_edge = np.empty_like(corner_vertex), np.empty_like(corner_vertex)
-    moved_edges = np.empty_like(edges)
 
     def move(start: int, stop: int) -> None:
         faces = face_order[start:stop]
@@ -171,17 +166,13 @@ def reorder(
         corner_vertex.take(corner, out=moved_vertex[part], mode="clip")
         new_edge.take(surface.corner_edge[corner], out=moved_edge[part], mode="clip")
 
-    def move_edges(start: int, stop: int) -> None:
-        edges.take(edge_order[start:stop], axis=0, out=moved_edges[start:stop], mode="clip")
-
     blocks.run(move, surface.n_faces)
-    blocks.run(move_edges, len(edges))
     renumbered = SurfaceMesh.trusted(
         vertices=surface.vertices.take(old_number, axis=0),
         corner_vertex=moved_vertex,
         corner_edge=moved_edge,
         face_offset=offset,
-        edges=moved_edges,
+        edges=blocks.take(edges, edge_order),
     )
     return Reordering(renumbered, old_number, face_order)
 
@@ -195,15 +186,6 @@ def _inverse(order: NDArray[np.int32], blocks: Blocks) -> NDArray[np.int32]:
 
     blocks.run(write, len(order))
     return number
-
-
-def _taken(values: NDArray[np.int32], index: NDArray[np.int32], blocks: Blocks) -> NDArray[np.int32]:
-    """Return `values[index]`, shape (n,), looked up on threads."""
-    result = np.empty(len(index), np.int32)
-    blocks.run(
-        lambda start, stop: values.take(index[start:stop], out=result[start:stop], mode="clip"), len(index)
-    )
-    return result
 
 
 def _coarse_order(vertices: NDArray[np.int32], n_vertices: int) -> NDArray[np.int32]:

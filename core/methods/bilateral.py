@@ -30,10 +30,6 @@ def bilateral_filter(problem: Problem) -> Solution:
         With the settings `iterations`, `tolerance`, `sigma_c`, and `sigma_s`, where 0 stands for the standard
         deviation of the heights on the noisy mesh.
 
-    Returns
-    -------
-    Solution
-
     Notes
     -----
     For a vertex p with normal n and the neighbors q within 2 sigma_c: t = |p - q|, h = <n, q - p>,

@@ -97,10 +97,6 @@ def estimate_noise(
     blocks : Blocks, optional
         Threads to work on; results do not depend on their number.
 
-    Returns
-    -------
-    NoiseEstimate
-
     Raises
     ------
     ValueError

@@ -58,10 +58,6 @@ def make_transform(
     only_used_bands : bool
         Leave out the bands that never reach the surface (Remark 4.1).
 
-    Returns
-    -------
-    FrameTransform
-
     Raises
     ------
     FrameError
