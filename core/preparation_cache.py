@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import DTypeLike
 
 from .errors import FrameletError
-from .limits.placed import Placed
+from .limits.placed import ResolvedRegion
 from .mesh.connectivity import Connectivity
 from .mesh.surface_mesh import SurfaceMesh
 from .prepared import Prepared, prepare_again
@@ -66,18 +66,18 @@ class PreparationCache:
 
 
 def prepared_for(
-    placed: Placed,
+    resolved: ResolvedRegion,
     settings: DenoiseSettings,
     connectivity: Connectivity | None,
     dtype: DTypeLike,
     should_stop: Callable[[], bool] | None,
     known: Prepared | PreparationCache | None,
 ) -> Prepared:
-    """Return the mesh that a region is placed on, ready for work: made anew, or what is known of it.
+    """Return the mesh that a region is resolved on, ready for work: made anew, or what is known of it.
 
     Parameters
     ----------
-    placed : Placed
+    resolved : ResolvedRegion
         The mesh, which may be welded.
     settings, connectivity, dtype, should_stop
         See `prepare`; of a welded mesh the neighborhoods are others.
@@ -89,8 +89,8 @@ def prepared_for(
     FrameletError
         If what was prepared is for another mesh or other stencils.
     """
-    surface = placed.surface
-    if placed.weld is not None:
+    surface = resolved.surface
+    if resolved.weld is not None:
         connectivity = None
     if isinstance(known, PreparationCache):
         return known.prepare(surface, settings, dtype, should_stop)

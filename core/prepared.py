@@ -19,7 +19,7 @@ from .learned.engine import FaceEngine
 from .limits.constraints import Constraints, Corners, find_constraints, find_corners
 from .limits.face_watch import FaceState
 from .limits.lines import find_lines, smoothing_of
-from .limits.placed import Placed
+from .limits.placed import ResolvedRegion
 from .limits.straight_borders import find_curves, straightened
 from .mesh.checks import check_positions, check_surface
 from .mesh.connectivity import Connectivity, connect
@@ -97,14 +97,14 @@ class Prepared:
         return self.key == _key(settings, dtype) and _is_same(self.surface.vertices, surface.vertices)
 
     def problem(
-        self, placed: Placed, settings: DenoiseSettings, blocks: Blocks, callback: Callback | None
+        self, resolved: ResolvedRegion, settings: DenoiseSettings, blocks: Blocks, callback: Callback | None
     ) -> Problem:
         """Return what a method is given; the region goes by the numbers of `ordered`."""
         constraints = find_constraints(
-            self.ordered, self.connectivity, settings, placed.movable, self.noisy.dtype, self.corners
+            self.ordered, self.connectivity, settings, resolved.movable, self.noisy.dtype, self.corners
         )
         given = self.noisy
-        if placed.straighten_borders:
+        if resolved.straighten_borders:
             given, constraints = self._with_straight_borders(constraints)
         problem = Problem(
             noisy=given,
@@ -119,9 +119,9 @@ class Prepared:
             engine=self.engine,
             callback=callback,
         )
-        if placed.feature_edges is None:
+        if resolved.feature_edges is None:
             return problem
-        lines = find_lines(given, placed.feature_edges, constraints.pinned)
+        lines = find_lines(given, resolved.feature_edges, constraints.pinned)
         noisy = given.copy()
         noisy[:, lines.inner] += smoothing_of(given, lines, _line_strength(settings)).astype(noisy.dtype)
         return replace(
@@ -154,12 +154,12 @@ class Prepared:
         blocks.run(kernel, points.shape[1])
         return motion
 
-    def known_faces(self, placed: Placed) -> list[FaceState]:
+    def known_faces(self, resolved: ResolvedRegion) -> list[FaceState]:
         """Return the list that what is found out about the faces of the input is kept in.
 
         What is known of the faces is known of a mesh that moves as it is.
         """
-        return self.faces if placed.weld is None else []
+        return self.faces if resolved.weld is None else []
 
 
 def prepare(

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .limits.finish import Finished
-from .limits.placed import Placed
+from .limits.placed import ResolvedRegion
 from .mesh.surface_mesh import SurfaceMesh
 from .methods.problem import Problem, Solution
 from .noise import NoiseEstimate
@@ -82,7 +82,7 @@ def stopped_report(surface: SurfaceMesh, settings: DenoiseSettings, began: float
 
 
 def account(
-    placed: Placed,
+    resolved: ResolvedRegion,
     vertices: NDArray[np.floating],
     finished: Finished,
     problem: Problem,
@@ -93,8 +93,8 @@ def account(
 
     `vertices`, shape (N, 3), are the new positions of the mesh that was given.
     """
-    surface, watch = placed.original, finished.watch
-    connectivity = watch.carrier.connectivity
+    surface, watch = resolved.original, finished.watch
+    connectivity = watch.welded.connectivity
 
     def measure(start: int, stop: int) -> tuple[int, float, float]:
         moved = vertices[start:stop].astype(np.float64) - surface.vertices[start:stop]
@@ -112,7 +112,7 @@ def account(
         n_moved=sum(n_moved),
         iterations=solution.iterations,
         is_stopped=solution.is_stopped,
-        mean_edge_length=watch.carrier.edge,
+        mean_edge_length=watch.welded.edge,
         displacement_rms=float(np.sqrt(sum(squares) / surface.n_vertices)),
         displacement_max=float(np.sqrt(max(largest))),
         flipped_faces=watch.n_turned,
@@ -130,5 +130,5 @@ def account(
         settings=solution.settings,
         noise=solution.noise,
         line_vertices=problem.line_vertices,
-        welded_vertices=0 if placed.weld is None else placed.weld.n_merged,
+        welded_vertices=0 if resolved.weld is None else resolved.weld.n_merged,
     )

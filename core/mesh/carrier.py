@@ -16,7 +16,7 @@ from .surface_mesh import SurfaceMesh
 
 
 @dataclass(frozen=True, eq=False)
-class Carrier:
+class WeldedMesh:
     """Two meshes that lie over each other: the one that moves, and the one that was worked on.
 
     Attributes

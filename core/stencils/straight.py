@@ -14,7 +14,7 @@ from ..blocks import Blocks
 from ..mesh.geometry import coordinate_rows
 from .builder import Place, StencilBuilder
 from .mean import fill_mean
-from .members import Members
+from .members import RingPoints
 
 HIGHEST_VALENCE = 1024
 """Above it the search over all pairs would take more memory than such a fan is worth; MEAN serves there."""
@@ -35,7 +35,7 @@ _CODES = 2**12
 def fill_straight(
     builder: StencilBuilder,
     vertices: NDArray[np.floating],
-    members: Members,
+    ring_points: RingPoints,
     wanted: NDArray[np.intp],
     places: Sequence[Place],
     blocks: Blocks,
@@ -53,10 +53,10 @@ def fill_straight(
         Receives slots and midpoints.
     vertices : ndarray, shape (N, 3)
         Positions on which angles and lengths are measured.
-    members : Members
+    ring_points : RingPoints
         One-rings, at level 0 or dilated.
     wanted : ndarray, shape (n,), intp
-        Vertices to fill; all have near members.
+        Vertices to fill; all have near ring_points.
     places : sequence of six (row, column)
         The ring of taps; opposite is three places on.
     blocks : Blocks
@@ -68,7 +68,7 @@ def fill_straight(
         Those of `wanted` that the rule cannot serve: fewer than three neighbors, fewer than four without
         edges between them, or more than `HIGHEST_VALENCE`.
     """
-    connectivity = members.connectivity
+    connectivity = ring_points.connectivity
 
     def sort(start: int, stop: int) -> list[NDArray[np.intp]]:
         part = wanted[start:stop]
@@ -82,11 +82,11 @@ def fill_straight(
     sorts = zip(*blocks.run(sort, len(wanted)), strict=True)
     pairable, four, three, unserved = map(np.concatenate, sorts) if len(wanted) else (wanted,) * 4
     third = pairable[connectivity.valence[pairable] == 4]
-    fill_mean(builder, members.near, connectivity, third, places)  # its third pair
-    _fill_pairs(builder, coordinate_rows(vertices, blocks), members, pairable, places, blocks)
+    fill_mean(builder, ring_points.near, connectivity, third, places)  # its third pair
+    _fill_pairs(builder, coordinate_rows(vertices, blocks), ring_points, pairable, places, blocks)
     for value, group in ((4, four), (3, three)):
         if len(group):
-            completed = complete_rings(builder, vertices, members.near_rows(group, value), 6, blocks)
+            completed = complete_rings(builder, vertices, ring_points.near_rows(group, value), 6, blocks)
             for place, points in zip(places, completed, strict=True):
                 builder.set(place, group, points)
     return unserved
@@ -95,7 +95,7 @@ def fill_straight(
 def _fill_pairs(
     builder: StencilBuilder,
     points: NDArray[np.float64],
-    members: Members,
+    ring_points: RingPoints,
     wanted: NDArray[np.intp],
     places: Sequence[Place],
     blocks: Blocks,
@@ -103,13 +103,13 @@ def _fill_pairs(
     """Put the pairs of `straight_pairs` under the taps of vertices; `points` (3, N) are the positions."""
 
     def kernel(start: int, stop: int) -> None:
-        valence = members.connectivity.valence[wanted[start:stop]]
+        valence = ring_points.connectivity.valence[wanted[start:stop]]
         for value in map(int, np.flatnonzero(np.bincount(valence))):
             group = wanted[start:stop][valence == value]
             size = max(1, 2**18 // value**2)  # so that the table of pairs stays in the cache
             for begin in range(0, len(group), size):
                 part = group[begin : begin + size]
-                pairs = straight_pairs(points, part, members.near_rows(part, value), min(value // 2, 3))
+                pairs = straight_pairs(points, part, ring_points.near_rows(part, value), min(value // 2, 3))
                 n_pairs = len(pairs) // 2
                 for pair in range(n_pairs):
                     builder.set(places[pair], part, pairs[pair])

@@ -19,7 +19,7 @@ from .triangles import RING
 from .walks import Grid, Steps
 
 
-def make_walked_stencil(
+def make_grid_stencil(
     surface: SurfaceMesh, connectivity: Connectivity, boundary: str, bank: FilterBank, level: int
 ) -> Stencil:
     """Choose the points under the masks of a wide or cell-centered bank; see `make_stencil`.

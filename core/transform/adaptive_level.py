@@ -15,7 +15,7 @@ from ..blocks import Blocks
 from ..frames.valence_masks import HarmonicBank, PairwiseBank
 from ..mesh.locality import stable_order
 from ..mesh.ragged import Chunk, Ragged
-from ..stencils.members import Members
+from ..stencils.members import RingPoints
 from .level import Bands, Points, Sites, Visit
 
 
@@ -37,17 +37,17 @@ class Neighbors(NamedTuple):
     is_kept: NDArray[np.bool_]
 
 
-def ring_neighbors(members: Members, boundary: str) -> Neighbors:
-    """Return one-rings as neighbors, without members that were not found.
+def ring_neighbors(ring_points: RingPoints, boundary: str) -> Neighbors:
+    """Return one-rings as neighbors, without ring points that were not found.
 
     Unless the boundary is FREE, the one-sided rings of boundary vertices are kept, as shrinking them would
     pull the border inwards.
     """
-    connectivity = members.connectivity
+    connectivity = ring_points.connectivity
     is_ordered = ~connectivity.is_non_manifold
     is_kept = is_ordered & connectivity.is_boundary & (boundary != "FREE")
-    rows = Ragged(connectivity.ring_offset, members.near)
-    return Neighbors(rows.kept(members.near >= 0), is_ordered, is_kept)
+    rows = Ragged(connectivity.ring_offset, ring_points.near)
+    return Neighbors(rows.kept(ring_points.near >= 0), is_ordered, is_kept)
 
 
 class _Taps(NamedTuple):

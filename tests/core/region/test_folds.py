@@ -9,7 +9,7 @@ from framelet.core import PRESETS, Region, denoise
 from framelet.core.blocks import Blocks
 from framelet.core.limits.face_watch import DEGENERATE, FaceWatch
 from framelet.core.limits.folds import damp_until_valid
-from framelet.core.mesh.carrier import Carrier
+from framelet.core.mesh.carrier import WeldedMesh
 from framelet.core.mesh.connectivity import connect
 from framelet.core.mesh.corner_lists import corners_around
 from framelet.core.mesh.geometry import face_area_vectors, mean_edge_length, vertex_normals
@@ -23,8 +23,8 @@ TURN_OVER = 4.0
 
 
 def watch_of(mesh, threads=2):
-    carrier = Carrier(mesh, mesh, connect(mesh), mean_edge_length(mesh))
-    return FaceWatch(carrier, Blocks(threads, block_size=50))
+    welded = WeldedMesh(mesh, mesh, connect(mesh), mean_edge_length(mesh))
+    return FaceWatch(welded, Blocks(threads, block_size=50))
 
 
 def folded_by_a_loop(mesh):
