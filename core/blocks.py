@@ -32,6 +32,8 @@ class Stopped(Exception):
 class Blocks:
     """Threads that run kernels over index ranges; a context manager, which may be entered again.
 
+    Functions that take a parameter `blocks` do their work on it; without one, on the calling thread.
+
     Outside of `with`, kernels run on the calling thread.
 
     Parameters

@@ -75,14 +75,8 @@ def prepared_for(
 ) -> Prepared:
     """Return the mesh that a region is resolved on, ready for work: made anew, or what is known of it.
 
-    Parameters
-    ----------
-    resolved : ResolvedRegion
-        The mesh, which may be welded.
-    settings, connectivity, dtype, should_stop
-        See `prepare`; of a welded mesh the neighborhoods are others.
-    known : Prepared or PreparationCache or None
-        What was prepared before, or what keeps it.
+    `known` is what was prepared before, or what keeps it. Of a welded mesh the neighborhoods are not those
+    that were given.
 
     Raises
     ------

@@ -53,8 +53,6 @@ class FaceGraph:
         The mesh, for its faces.
     connectivity : Connectivity
         Its neighborhoods.
-    blocks : Blocks
-        Threads to work on.
     faces_at_once : int, optional
         Faces or pairs in a block, at most as many as by default.
 

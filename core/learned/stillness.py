@@ -171,8 +171,6 @@ def clean_places(
         Local edge lengths.
     rings : RingMeans
         Rings.
-    blocks : Blocks
-        Threads to work on.
     """
     n_vertices = points.shape[1]
     positions = np.ascontiguousarray(points.T, np.float64)

@@ -45,8 +45,6 @@ class FaceWatch:
     ----------
     welded : WeldedMesh
         The meshes.
-    blocks : Blocks
-        Threads to work on.
     before : FaceState, optional
         The faces of the input, if they are known already: what `before` was for the same meshes.
 

@@ -59,8 +59,6 @@ def finish(
         The limits.
     constraints : Constraints
         Vertices that are pinned take no part in the offset for the volume.
-    blocks : Blocks
-        Threads to work on.
     known : list of FaceState
         The faces of the input, if they are known already, see `FaceWatch`; afterwards they are.
     """

@@ -39,8 +39,6 @@ def damp_until_valid(
         Of the vertices of the mesh that was worked on, in scene units.
     shares : ndarray, shape (n,)
         Share of its displacement that each vertex makes, from 1 to 0; changed in place.
-    blocks : Blocks
-        Threads to work on.
 
     Returns
     -------

@@ -115,8 +115,6 @@ def connect(
     ----------
     surface : SurfaceMesh
         Any polygon mesh; not modified. Positions are not looked at.
-    blocks : Blocks, optional
-        Threads to work on.
     labels : ndarray, shape (N,), int32, optional
         Different numbers of the vertices by which equals are told apart, instead of their own numbers: those
         of a mesh before it was renumbered.

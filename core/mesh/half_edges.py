@@ -63,8 +63,6 @@ def find_half_edges(surface: SurfaceMesh, blocks: Blocks | None = None) -> HalfE
     ----------
     surface : SurfaceMesh
         Any polygon mesh; not modified.
-    blocks : Blocks, optional
-        Threads to work on.
     """
     blocks = blocks or Blocks(1)
     n_corners = surface.n_corners
@@ -143,8 +141,6 @@ def shifted(values: NDArray[np.int32], surface: SurfaceMesh, step: int, blocks: 
         The mesh.
     step : {1, -1}
         Next or previous.
-    blocks : Blocks
-        Threads to work on.
     """
     size = surface.common_face_size()
     if size:

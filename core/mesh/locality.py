@@ -130,8 +130,6 @@ def reorder(
         Any mesh; not modified.
     vertex_order : ndarray, shape (N,), int
         The vertices in their new order, each once; from `spatial_order`, say.
-    blocks : Blocks, optional
-        Threads to work on.
     """
     blocks = blocks or Blocks(1)
     n_vertices = surface.n_vertices

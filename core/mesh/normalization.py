@@ -25,8 +25,6 @@ def normalize(
         Its neighborhoods.
     edge : float
         Mean edge length.
-    blocks : Blocks, optional
-        Threads to work on.
 
     Returns
     -------
@@ -75,8 +73,6 @@ def displaced(
         Displacements in scene units.
     vertex : ndarray, shape (N,), int, optional
         Which displacement each vertex takes; its own by default.
-    blocks : Blocks, optional
-        Threads to work on.
 
     Returns
     -------

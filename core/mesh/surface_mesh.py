@@ -94,14 +94,10 @@ class SurfaceMesh:
         refuses; all methods cope with these.
         """
         mesh = object.__new__(cls)
-        for name, array in (
-            ("vertices", vertices),
-            ("corner_vertex", corner_vertex),
-            ("corner_edge", corner_edge),
-            ("face_offset", face_offset),
-            ("edges", edges),
-        ):
-            object.__setattr__(mesh, name, array)
+        names = ("vertices", "corner_vertex", "corner_edge", "face_offset", "edges")
+        mesh.__dict__.update(
+            zip(names, (vertices, corner_vertex, corner_edge, face_offset, edges), strict=True)
+        )
         return mesh
 
     def frozen(self) -> SurfaceMesh:

@@ -69,21 +69,9 @@ def shrink_positions(problem: Problem) -> Solution:
 
 
 def tuned(settings: DenoiseSettings, frame: str, noise: NoiseEstimate) -> DenoiseSettings:
-    """Return settings with λ, μ and the number of iterations for a noise.
+    """Return settings with λ, μ and the number of iterations for a noise, and a frame that is not AUTO.
 
-    Parameters
-    ----------
-    settings : DenoiseSettings
-        Shrinkage and stencil count.
-    frame : str
-        The frame that is used, not AUTO.
-    noise : NoiseEstimate
-        Of the mesh; of impulsive noise the root mean square counts.
-
-    Returns
-    -------
-    DenoiseSettings
-        A mesh without noise gets λ = 0, so that nothing moves.
+    A mesh without noise gets λ = 0, so that nothing moves. Of impulsive noise the root mean square counts.
     """
     frame = getattr(frame, "name", frame)  # of a bank of one's own
     sigma = noise.sigma_edges

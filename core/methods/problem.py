@@ -45,8 +45,6 @@ class Problem:
         The method and its parameters.
     constraints : Constraints
         Vertices that may not move freely.
-    blocks : Blocks
-        Threads to work on.
     transform : FrameTransform or None
         The frame with frozen stencils, if the method uses one.
     engine : FaceEngine or None

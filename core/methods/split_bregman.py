@@ -54,8 +54,6 @@ def split_bregman(
         mu, delta, iterations, tolerance.
     constraints : Constraints or None
         Vertices that may not move freely.
-    blocks : Blocks
-        Threads to work on.
     callback : callable, optional
         See `Watch`.
 

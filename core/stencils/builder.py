@@ -30,8 +30,6 @@ class StencilBuilder:
         never set holds the vertex itself: such taps carry no detail.
     is_vertex_centered : bool
         Whether tap 0 is the vertex itself.
-    blocks : Blocks, optional
-        Threads to work on.
     """
 
     def __init__(

@@ -45,8 +45,6 @@ def dilate(
         Level l; near ring points are looked for on the 2^l-ring.
     far_distance : int
         Steps to the far ring points of level 0: 1 on quads, 2 across triangle edges.
-    blocks : Blocks
-        Threads to work on.
 
     Returns
     -------

@@ -44,8 +44,6 @@ def make_stencil(
         The rule at irregular vertices; those that STRAIGHT cannot serve take MEAN.
     boundary : {"ALONG", "FIXED", "FREE"}
         With FREE, boundary vertices are irregular vertices like others; else missing points are mirrored.
-    blocks : Blocks, optional
-        Threads to work on.
     bank : FilterBank
         The masks to serve.
     level : int

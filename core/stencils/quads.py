@@ -43,8 +43,6 @@ def fill_quads(
         Edge neighbors and far corners, at level 0 or dilated.
     rule, boundary : str
         See `make_stencil`.
-    blocks : Blocks
-        Threads to work on.
     """
     assert ring_points.far is not None
     connectivity = ring_points.connectivity

@@ -59,8 +59,6 @@ def fill_straight(
         Vertices to fill; all have near ring_points.
     places : sequence of six (row, column)
         The ring of taps; opposite is three places on.
-    blocks : Blocks
-        Threads to work on.
 
     Returns
     -------
@@ -100,7 +98,7 @@ def _fill_pairs(
     places: Sequence[Place],
     blocks: Blocks,
 ) -> None:
-    """Put the pairs of `straight_pairs` under the taps of vertices; `points` (3, N) are the positions."""
+    """Put the pairs of `pair_positions` under the taps of vertices; `points` (3, N) are the positions."""
 
     def kernel(start: int, stop: int) -> None:
         valence = ring_points.connectivity.valence[wanted[start:stop]]
@@ -109,18 +107,17 @@ def _fill_pairs(
             size = max(1, 2**18 // value**2)  # so that the table of pairs stays in the cache
             for begin in range(0, len(group), size):
                 part = group[begin : begin + size]
-                pairs = straight_pairs(points, part, ring_points.near_rows(part, value), min(value // 2, 3))
-                n_pairs = len(pairs) // 2
-                for pair in range(n_pairs):
-                    builder.set(places[pair], part, pairs[pair])
-                    builder.set(places[pair + 3], part, pairs[pair + n_pairs])
+                rings, columns = ring_points.near_rows(part, value), np.arange(len(part))
+                for number, (one, two) in enumerate(pair_positions(points, part, rings, min(value // 2, 3))):
+                    builder.set(places[number], part, rings[one, columns])
+                    builder.set(places[number + 3], part, rings[two, columns])
 
     blocks.run(kernel, len(wanted))
 
 
-def straight_pairs(
+def pair_positions(
     points: NDArray[np.float64], centers: NDArray[np.intp], rings: NDArray[np.int32], n_pairs: int
-) -> NDArray[np.int32]:
+) -> list[tuple[NDArray[np.intp], NDArray[np.intp]]]:
     """Choose pairs of ring vertices greedily by largest angle at the center, each ring vertex once.
 
     Parameters
@@ -132,26 +129,14 @@ def straight_pairs(
     rings : ndarray, shape (K, n), int32
         Their rings.
     n_pairs : int
-        Number of pairs, at most K // 2; rings of five have one more, see Notes.
+        Number of pairs, at most K // 2. In a ring of five the vertex left over is paired once more with the
+        used one that makes the largest angle.
 
     Returns
     -------
-    ndarray, shape (2 P, n), int32
-        The first vertices of the P pairs, then the second ones.
-
-    Notes
-    -----
-    In a ring of five the vertex left over is paired once more with the used one that makes the largest angle.
+    list of (first, second)
+        For each pair the places of its vertices in the rings, shape (n,) each.
     """
-    chosen = pair_positions(points, centers, rings, n_pairs)
-    columns = np.arange(rings.shape[1])
-    return np.stack([rings[a, columns] for a, _ in chosen] + [rings[b, columns] for _, b in chosen])
-
-
-def pair_positions(
-    points: NDArray[np.float64], centers: NDArray[np.intp], rings: NDArray[np.int32], n_pairs: int
-) -> list[tuple[NDArray[np.intp], NDArray[np.intp]]]:
-    """Return the ring positions of the pairs of `straight_pairs`, each (n,)."""
     valence = len(rings)
     first, second = np.triu_indices(valence, 1)
     ranks = _pair_ranks(points, centers, rings)
@@ -242,8 +227,6 @@ def complete_rings(
         Closed rings of vertices.
     size : int
         Wanted number of points, at least K and at most 2 K.
-    blocks : Blocks, optional
-        Threads to work on.
 
     Returns
     -------

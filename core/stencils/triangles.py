@@ -43,8 +43,6 @@ def fill_triangles(
         One-rings, at level 0 or dilated; with far ring points if the stencil has taps across ring edges.
     rule, boundary : str
         See `make_stencil`.
-    blocks : Blocks
-        Threads to work on.
     """
     connectivity = ring_points.connectivity
     found = ring_points.is_found(blocks)

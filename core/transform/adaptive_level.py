@@ -79,8 +79,6 @@ class AdaptiveLevel:
         Measure m' of this level's coefficients.
     dtype : dtype
         Precision to work in.
-    blocks : Blocks
-        Threads to work on.
     """
 
     def __init__(

@@ -49,8 +49,6 @@ class LatticeLevel:
         The masks.
     dtype : dtype
         Precision to work in.
-    blocks : Blocks
-        Threads to work on.
     bands : ndarray of int, optional
         Bands to compute, the low-pass first; all by default.
     is_dilated : bool

@@ -51,8 +51,6 @@ def make_transform(
         See `make_stencil`.
     connectivity : Connectivity, optional
         Neighborhoods, if they are known already.
-    blocks : Blocks, optional
-        Threads to work on.
     dtype : dtype
         Precision of the transform.
     only_used_bands : bool
