@@ -78,15 +78,15 @@ def denoise(
     began = perf_counter()
     settings = settings or PRESETS[DEFAULT_PRESET].settings
     region = region or Region()
-    resolved = resolve(region, surface, movable)
+    resolved = resolve(region, surface, movable)  # what the region says about each vertex
     check_memory(surface, settings, max_bytes)
     try:
         prepared = prepared_for(resolved, settings, connectivity, dtype, should_stop, prepared)
         with prepared.blocks.with_threads(settings.threads).stopped_by(should_stop) as blocks:
             resolved = resolved.renumbered(prepared.reordering)
-            problem = prepared.problem(resolved, settings, blocks, callback)
+            problem = prepared.problem(resolved, settings, blocks, callback)  # in mean edge lengths
             solution = METHODS[settings.method](problem)
-            motion = prepared.motion(solution.points, blocks)
+            motion = prepared.motion(solution.points, blocks)  # in scene units again
             welded = resolved.welded_mesh(prepared.connectivity, prepared.edge)
             finished = finish(
                 motion, welded, resolved, region, problem.constraints, blocks, prepared.known_faces(resolved)

@@ -73,7 +73,7 @@ def prepared_for(
     should_stop: Callable[[], bool] | None,
     known: Prepared | PreparationCache | None,
 ) -> Prepared:
-    """Return the mesh that a region is resolved on, ready for work: made anew, or what is known of it.
+    """Return what is prepared of the mesh that a region is for: made anew, or what is known of it.
 
     `known` is what was prepared before, or what keeps it. Of a welded mesh the neighborhoods are not those
     that were given.
