@@ -48,9 +48,9 @@ class _Threshold:
     kind: str
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "kind", self.kind.upper())
-        if self.kind not in SHRINKAGES:
+        if self.kind.upper() not in SHRINKAGES:
             raise SettingError(f"The shrinkage is {self.kind!r}; choose one of {', '.join(SHRINKAGES)}.")
+        object.__setattr__(self, "kind", self.kind.upper())
         if not 0.0 <= self.weight < float("inf"):
             raise SettingError(f"The weight is {self.weight}; it must be 0 or a positive number.")
 
