@@ -267,7 +267,7 @@ def test_corners_around_vertices_match_a_search(name, rng):
 def test_faces_that_are_known_already_give_the_same(rng):
     mesh = noisy(triangle_torus(12, 30), rng, 0.4)
     first = watch_of(mesh)
-    again = FaceWatch(first.carrier, Blocks(1), first.before)
+    again = FaceWatch(first.welded, Blocks(1), first.before)
     other = noisy(mesh, rng, 0.4)
     areas = first.before.areas.copy()
     for watch in (first, again):
