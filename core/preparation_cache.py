@@ -14,7 +14,7 @@ from .errors import FrameletError
 from .limits.placed import ResolvedRegion
 from .mesh.connectivity import Connectivity
 from .mesh.surface_mesh import SurfaceMesh
-from .prepared import Prepared, prepare_again
+from .prepared import Prepared, prepare, prepare_again
 from .settings import DenoiseSettings
 
 MAX_BYTES = 2**30
@@ -89,8 +89,9 @@ def prepared_for(
     if isinstance(known, PreparationCache):
         return known.prepare(surface, settings, dtype, should_stop)
     if known is None:
-        # For one run, during which nobody may write to the mesh.
-        return prepare_again(surface, settings, None, connectivity, dtype, should_stop, is_kept=False)
+        return prepare(
+            surface, settings, connectivity=connectivity, dtype=dtype, should_stop=should_stop, is_kept=False
+        )
     if not known.fits(surface, settings, dtype):
         raise FrameletError("This was prepared for another mesh or other stencils; prepare it again.")
     return known

@@ -171,6 +171,7 @@ def prepare(
     previous: Prepared | None = None,
     should_stop: Callable[[], bool] | None = None,
     block_size: int = BLOCK_SIZE,
+    is_kept: bool = True,
 ) -> Prepared:
     """Do all of a run that does not depend on λ, μ, δ, iterations, tolerance and movable vertices.
 
@@ -191,6 +192,9 @@ def prepare(
         Asked many times; returns True to stop.
     block_size : int, optional
         Vertices in a block of work for a thread.
+    is_kept : bool
+        Whether the result is kept. If it serves one run only, during which nobody writes to the mesh, the
+        mesh is not copied.
 
     Raises
     ------
