@@ -207,7 +207,9 @@ def prepare(
     settings = settings or PRESETS[DEFAULT_PRESET].settings
     if previous is not None and not previous.has_topology_of(surface):
         previous = None
-    return prepare_again(surface, settings, previous, connectivity, dtype, should_stop, block_size=block_size)
+    return prepare_again(
+        surface, settings, previous, connectivity, dtype, should_stop, is_kept=is_kept, block_size=block_size
+    )
 
 
 def prepare_again(
@@ -221,10 +223,7 @@ def prepare_again(
     is_kept: bool = True,
     block_size: int = BLOCK_SIZE,
 ) -> Prepared:
-    """Do what `prepare` does, with something `previous` that is known to have the topology of the mesh.
-
-    Unless `is_kept`, nobody may write to the mesh as long as the result is used, so that it is not copied.
-    """
+    """Do what `prepare` does, with something `previous` that is known to have the topology of the mesh."""
     if previous is not None and previous.fits_positions(surface, settings, dtype):
         return previous
     if is_kept:

@@ -105,6 +105,8 @@ def test_only_arrays_that_can_be_written_to_are_copied(rng):
     view = mesh.with_vertices(mesh.vertices[:])
     view.vertices.flags.writeable = False  # but not what it is a view of
     assert not np.shares_memory(prepare(view).surface.vertices, mesh.vertices)
+    once = prepare(mesh, is_kept=False)
+    assert once.surface.vertices is mesh.vertices and mesh.vertices.flags.writeable
 
 
 @pytest.mark.parametrize("name", [item.name for item in fields(SurfaceMesh)])
