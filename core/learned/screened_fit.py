@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from ..averages.means import Means, padded
 from ..averages.ring_means import RingMeans
 from .face_graph import FaceGraph, Polygons
-from .unfolding import doubled_areas, unfolded_points
+from .unfolding import ROUNDS, doubled_areas, unfolded_points
 
 NORMAL_PULL = 0.006
 TANGENT_PULL = 0.1
@@ -71,6 +71,9 @@ class ScreenedFit:
         normals: NDArray[np.float32],
         is_free: NDArray[np.bool_] | None = None,
         unit: NDArray[np.float32] | None = None,
+        *,
+        least_outliers: float = LEAST_OUTLIERS,
+        rounds: int = ROUNDS,
     ) -> NDArray[np.float32]:
         """Return fitted positions.
 
@@ -84,6 +87,10 @@ class ScreenedFit:
             Vertices that may move; all by default.
         unit : ndarray, shape (N,), float32, optional
             Local edge lengths; 1 by default.
+        least_outliers : float
+            Share of the vertices from which outliers matter.
+        rounds : int
+            Rounds of unfolding at most.
 
         Returns
         -------
@@ -93,10 +100,10 @@ class ScreenedFit:
         if is_free is not None and is_free.all():
             is_free = None
         fitted = self._solved(points, normals, weights, STEPS, is_free)
-        start = self._without_outliers(points, fitted, is_free, unit)
+        start = self._without_outliers(points, fitted, is_free, unit, least_outliers)
         if start is not None:
             fitted = self._solved(start, normals, weights, STEPS, is_free)
-        unfolded = unfolded_points(fitted, normals, self._graph, self._rings, is_free)
+        unfolded = unfolded_points(fitted, normals, self._graph, self._rings, is_free, rounds)
         return fitted if unfolded is None else self._solved(unfolded, normals, weights, STEPS // 2, is_free)
 
     def _needle_weights(self, points: NDArray[np.float32]) -> NDArray[np.float32]:
@@ -248,6 +255,7 @@ class ScreenedFit:
         fitted: NDArray[np.float32],
         is_free: NDArray[np.bool_] | None,
         unit: NDArray[np.float32] | None,
+        least_outliers: float,
     ) -> NDArray[np.float32] | None:
         """Return positions to hold vertices at: those given, but outliers at the height of their rings.
 
@@ -263,7 +271,7 @@ class ScreenedFit:
         is_out = (distance > OUTLIER * np.maximum(usual, least))[:, 0]
         if is_free is not None:
             is_out &= rings.inward(is_free)
-        if np.count_nonzero(is_out) < LEAST_OUTLIERS * len(is_out):
+        if np.count_nonzero(is_out) < least_outliers * len(is_out):
             return None
         # Means over those in the ring that are no outliers; a fourth number counts them.
         others = rows.copy()

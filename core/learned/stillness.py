@@ -16,12 +16,12 @@ from numpy.typing import NDArray
 from ..averages.ring_means import RingMeans
 from ..blocks import Blocks
 from ..mesh.connectivity import Connectivity
+from ..mesh.linking import linked_groups
 from ..mesh.ragged import Ragged
 from ..mesh.surface_mesh import SurfaceMesh
 from ..noise.fits import fit_heights
 from ..noise.patches import find_patches, local_adjacency, spread_sample
 from .face_graph import FaceGraph, Polygons
-from .islands import connected
 from .measured import Measured
 from .scales import Scales
 
@@ -160,7 +160,7 @@ def _flat_faces(
     graph.for_pairs(compare)
     graph.for_faces(count)
     pairs = np.flatnonzero(is_pair)
-    part = connected(graph.n_faces, graph.first[pairs], graph.second[pairs])
+    part = linked_groups(graph.n_faces, graph.first[pairs], graph.second[pairs])
     sizes = np.bincount(part, n_triangles, graph.n_faces)
     is_flat: NDArray[np.bool_] = sizes[part] >= min(
         FLAT_FACES, max(2.0, FLAT_SHARE * n_triangles[counted].sum())
@@ -191,8 +191,6 @@ def clean_places(
         Local edge lengths.
     rings : RingMeans
         Rings.
-    blocks : Blocks
-        Threads to work on.
     measured : Measured, optional
         Where two-rings are looked at; by default everywhere.
     """

@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
+from ..mesh.connectivity import Connectivity
+from ..mesh.distance_rings import distance_rings, edge_adjacency
 from ..mesh.geometry import vertex_normals
-from ..mesh.neighborhoods import vertices_within
-from .problem import Problem, Solution
-from .progress import rms_motion
+from .problem import Problem, Solution, rms_motion
 
 _Pairs = tuple[NDArray[np.intp], NDArray[np.intp]]
 
@@ -30,10 +30,6 @@ def bilateral_filter(problem: Problem) -> Solution:
         With the settings `iterations`, `tolerance`, `sigma_c`, and `sigma_s`, where 0 stands for the standard
         deviation of the heights on the noisy mesh, around the vertices that may move; `strength` is a
         factor for it.
-
-    Returns
-    -------
-    Solution
 
     Notes
     -----
@@ -94,6 +90,20 @@ def _bell(squared: NDArray[np.floating], sigma: float) -> NDArray[np.floating]:
     most = float(np.finfo(squared.dtype).max)
     with np.errstate(over="ignore"):
         return np.exp(squared * squared.dtype.type(-min(0.5 / sigma / sigma, most)))
+
+
+def vertices_within(connectivity: Connectivity, start: int, stop: int, n_edges: int) -> _Pairs:
+    """Return the vertices at most so many edges away from each of a range of vertices, as pairs.
+
+    Returns
+    -------
+    center, member : ndarray, shape (P,), intp
+        In ascending order of both; a vertex is not its own member.
+    """
+    rings = distance_rings(edge_adjacency(connectivity), np.arange(start, stop), range(1, n_edges + 1))
+    center, member = (np.concatenate(column) for column in zip(*rings.values(), strict=True))
+    order = np.argsort(center * connectivity.n_vertices + member)
+    return center[order] + start, member[order]
 
 
 def _offsets(

@@ -102,10 +102,6 @@ def estimate_noise(
     where : ndarray, shape (N,), bool, optional
         Vertices around which it is measured; by default all.
 
-    Returns
-    -------
-    NoiseEstimate
-
     Raises
     ------
     ValueError

@@ -268,13 +268,7 @@ PRESETS: Mapping[str, Preset] = {
     "POSITIONS": Preset(
         "Positions",
         "For even, soft smoothing of any mesh: the frame that fits its faces, vector shrinkage",
-        {
-            "method": "POSITIONS",
-            "frame": "AUTO",
-            "stencil": "STRAIGHT",
-            "shrinkage": "VECTOR",
-            "lambda_": 0.25,
-        },
+        {"method": "POSITIONS"},
     ),
     "TRI_1": Preset(
         "Paper Tri-1",
@@ -290,13 +284,7 @@ PRESETS: Mapping[str, Preset] = {
     "TRI_2": Preset(
         "Paper Tri-2",
         "The paper's algorithm for triangles that keeps edges better: straight pairs, vector shrinkage",
-        {
-            "method": "POSITIONS",
-            "frame": "BOX_SPLINE_111",
-            "stencil": "STRAIGHT",
-            "shrinkage": "VECTOR",
-            "lambda_": 0.3,
-        },
+        {"method": "POSITIONS", "frame": "BOX_SPLINE_111", "lambda_": 0.3},
     ),
     "QUAD_1": Preset(
         "Paper Quad-1",
@@ -312,13 +300,7 @@ PRESETS: Mapping[str, Preset] = {
     "QUAD_2": Preset(
         "Paper Quad-2",
         "The paper's algorithm for quads that keeps edges better: straight pairs, vector shrinkage",
-        {
-            "method": "POSITIONS",
-            "frame": "LINEAR_SPLINE",
-            "stencil": "STRAIGHT",
-            "shrinkage": "VECTOR",
-            "lambda_": 0.2,
-        },
+        {"method": "POSITIONS", "frame": "LINEAR_SPLINE", "lambda_": 0.2},
     ),
     "BILATERAL": Preset(
         "Bilateral",

@@ -129,7 +129,7 @@ def _results(
     jobs: Sequence[dict[str, Any]], arguments: argparse.Namespace, messages: Messages
 ) -> Iterator[Iterator[tuple[dict[str, Any], dict[str, Any]]]]:
     """Give the rows of jobs, as they end: from this process, or from those of Dask."""
-    from ...core.processors import available_cores
+    from ...core.processors import default_threads
     from .batch_task import carry_out
 
     limits: dict[str, Any] = {"max_bytes": arguments.max_memory, "n_threads": 0}
@@ -143,7 +143,7 @@ def _results(
                     farm = stack.enter_context(of_scheduler(arguments.scheduler))
                 else:
                     n_processes = min(arguments.jobs, len(jobs))
-                    limits["n_threads"] = max(1, available_cores() // n_processes)
+                    limits["n_threads"] = max(1, default_threads() // n_processes)
                     farm = stack.enter_context(on_this_computer(n_processes, _environment()))
                 function = "operators.command_line.batch_task:carry_out"
                 yield farm.results([job | limits for job in jobs], function)

@@ -12,7 +12,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ...core.processors import use_processors
+from ...core.processors import set_default_threads
 from ...core.settings import DenoiseSettings
 from ..batch.peak_memory import forget_peak, peak_bytes
 from ..batch.rows import DONE, FAILED
@@ -20,6 +20,7 @@ from ..batch.task import Task, hash_of
 from ..files.defects import defects_of
 from ..files.safe_write import Outputs
 from ..files.sidecars import sidecars_of
+from ..machine import available_processors
 from ..properties.region_options import RegionOptions
 from . import explained
 from .denoise import denoise_opened
@@ -77,7 +78,7 @@ def carry_out(job: dict[str, Any]) -> dict[str, Any]:
         raised that a file can cause.
     """
     task = Task(**job["task"])
-    use_processors(job["n_threads"])
+    set_default_threads(job["n_threads"] or available_processors())
     messages, stages, row = KeptMessages(), _Stages(), row_of(task)
     forget_peak()
     try:

@@ -11,8 +11,7 @@ from framelet.core import DenoiseSettings, compare, denoise
 from framelet.core.blocks import Blocks
 from framelet.core.limits.constraints import find_constraints
 from framelet.core.mesh.connectivity import connect
-from framelet.core.mesh.neighborhoods import vertices_within
-from framelet.core.methods.bilateral import bilateral_filter
+from framelet.core.methods.bilateral import bilateral_filter, vertices_within
 from framelet.core.methods.problem import Problem
 from meshes import MESHES, faces_of, flipped, mixed_sheet, noisy, soup, triangle_torus, union
 from twins import newell
