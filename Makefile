@@ -13,6 +13,7 @@ BLENDER := 4.5
 # Each pytest run is killed after this many seconds: a Blender that hangs must not hang us.
 TIMEOUT ?= 1200
 GUI_TIMEOUT ?= 3600
+HUNT_TIMEOUT ?= 14400
 
 # Tests run in this many processes at once: auto is one for each core, 0 none but pytest itself.
 # Never more than eight, as each holds a whole Blender in memory.
@@ -35,7 +36,7 @@ demo: ## Denoise a noisy mesh without a screen; pictures and numbers go to build
 test: test-core test-$(BLENDER) test-installed-$(BLENDER) ## Test on one Blender: core, operators, installed zip
 
 .PHONY: test-all
-test-all: lint test-core test-training $(BLENDERS:%=test-%) $(BLENDERS:%=test-installed-%) ## Lint, then test on every supported Blender
+test-all: lint test-core numbers test-training $(BLENDERS:%=test-%) $(BLENDERS:%=test-installed-%) ## Lint, then test on every supported Blender
 
 .PHONY: lint
 lint: ## Check style and types
@@ -51,11 +52,44 @@ format: ## Format the code and fix what ruff can fix
 
 .PHONY: test-core
 test-core: ## Test core/, files and the release rules on plain Python and NumPy
-	$(ENVIRONMENT) run core --timeout $(TIMEOUT) -- $(PYTEST) tests/core tests/files tests/batch tests/release tests/benchmarks
+	$(ENVIRONMENT) run core --timeout $(TIMEOUT) -- $(PYTEST) tests/core tests/hunt tests/golden tests/files tests/batch tests/release tests/benchmarks
+
+.PHONY: golden
+golden: ## Make the table of golden checksums again, after a change that is meant
+	$(ENVIRONMENT) run core --timeout $(TIMEOUT) -- tests/golden/results.py
+
+.PHONY: numbers
+numbers: ## Compare the results of NumPy 1.26 and 2
+	$(ENVIRONMENT) run numpy-1.26 --timeout $(TIMEOUT) -- tests/golden/results.py --bits build/golden/numpy-1.csv
+	$(ENVIRONMENT) run core --timeout $(TIMEOUT) -- tests/golden/results.py --bits build/golden/numpy-2.csv \
+	  --same-as build/golden/numpy-1.csv
+
+.PHONY: hunt
+hunt: hunt-meshes fuzz kills coverage mutants ## Look for what breaks it, at length and by new examples; for a night
+
+.PHONY: hunt-meshes
+hunt-meshes: ## Denoise 2,000 meshes that nobody would think of, by each property
+	FRAMELET_HUNT=2000 $(ENVIRONMENT) run core --timeout $(HUNT_TIMEOUT) -- $(PYTEST) -o faulthandler_timeout=0 \
+	  tests/hunt
+
+.PHONY: coverage
+coverage: ## Measure which branches of core/ the tests take
+	$(ENVIRONMENT) run hunt --timeout $(HUNT_TIMEOUT) -- $(PYTEST) --cov --cov-report=term tests/core tests/hunt \
+	  tests/golden
+
+.PHONY: mutants
+mutants: ## Change single operators and numbers, and see whether a test tells
+	$(ENVIRONMENT) run core --timeout $(HUNT_TIMEOUT) -- tests/hunt/mutants.py --count 40
 
 .PHONY: fuzz
-fuzz: ## Read 5,000 damaged files
-	FRAMELET_FUZZ=5000 $(ENVIRONMENT) run core --timeout $(TIMEOUT) -- $(PYTEST) tests/files/test_fuzz.py
+fuzz: ## Read 5,000 damaged files, and as many manifests, reports and command lines
+	FRAMELET_FUZZ=5000 $(ENVIRONMENT) run core --timeout $(HUNT_TIMEOUT) -- $(PYTEST) tests/files/test_fuzz.py \
+	  tests/files/test_fuzz_words.py
+
+.PHONY: hunt-blender
+hunt-blender: ## Live 300 random lives in Blender, enable it 1,000 times, and denoise 200 times
+	FRAMELET_LIFE=300 FRAMELET_CYCLES=1000 FRAMELET_RUNS=200 $(ENVIRONMENT) run bpy-$(BLENDER) --timeout 3600 -- \
+	  $(PYTEST) tests/blender/test_life.py tests/blender/test_registration.py tests/blender/test_long_life.py
 
 .PHONY: kills
 kills: ## Kill batches at 100 random moments

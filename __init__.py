@@ -3,11 +3,16 @@
 
 """Framelet: clean noisy surfaces in Blender with tight wavelet frames.
 
-Nothing is imported here but on registration, so that ``framelet.core`` can be
-used and tested where there is no Blender.
+Blender is imported on registration only, so that ``framelet.core`` can be
+used and tested where there is none.
 """
 
 import atexit
+
+from .core.processors import set_default_threads
+from .operators.machine import available_processors
+
+set_default_threads(available_processors())  # the mathematics does not ask the system
 
 
 def register() -> None:

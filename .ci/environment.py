@@ -33,10 +33,12 @@ UV_PYTHONS = VENVS / "uv-pythons"
 # A bpy wheel works with one version of Python only.
 PYTHONS = {
     "core": ("3.11", "3.12", "3.13", "3.14"),
+    "hunt": ("3.11", "3.12", "3.13", "3.14"),
     "benchmarks": ("3.11", "3.12", "3.13", "3.14"),
     "bpy-4.2": ("3.11",),
     "bpy-4.5": ("3.11",),
     "bpy-5.2": ("3.13",),
+    "numpy-1.26": ("3.11", "3.12"),
     "speed": ("3.11", "3.12", "3.13"),
     "training": ("3.11",),
 }

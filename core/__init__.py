@@ -38,101 +38,35 @@ if TYPE_CHECKING:
     from .stencils import Stencil, make_stencil
     from .transform import FrameCoefficients, FrameTransform, adjoint, analyze, make_transform, synthesize
 
-_HOMES = {
-    "BANKS": ".frames",
-    "Comparison": ".metrics",
-    "Connectivity": ".mesh.connectivity",
-    "DEFAULT_PRESET": ".settings",
-    "DenoiseReport": ".report",
-    "DenoiseResult": ".report",
-    "DenoiseSettings": ".settings",
-    "FilterBank": ".frames",
-    "FirmThreshold": ".methods.proximal",
-    "FrameCoefficients": ".transform",
-    "FrameError": ".errors",
-    "FrameTransform": ".transform",
-    "FrameletError": ".errors",
-    "HardThreshold": ".methods.proximal",
-    "MeshError": ".errors",
-    "NoiseBelief": ".learned.noise_field",
-    "NoiseEstimate": ".noise",
-    "NoiseField": ".learned.noise_field",
-    "PRESETS": ".settings",
-    "PreparationCache": ".preparation_cache",
-    "Prepared": ".prepared",
-    "Region": ".limits.region",
-    "RegionError": ".errors",
-    "SettingError": ".errors",
-    "SoftThreshold": ".methods.proximal",
-    "Stencil": ".stencils",
-    "SurfaceMesh": ".mesh.surface_mesh",
-    "TooLargeError": ".errors",
-    "add_noise": ".library",
-    "adjoint": ".transform",
-    "analyze": ".transform",
-    "bilateral_filter": ".library",
-    "compare": ".library",
-    "connect": ".mesh.connectivity",
-    "denoise": ".library",
-    "equalize": ".equalizer",
-    "estimate_noise": ".library",
-    "face_normals": ".library",
-    "make_stencil": ".stencils",
-    "make_transform": ".transform",
-    "noise_field": ".learned.noise_field",
-    "prepare": ".prepared",
-    "split_bregman": ".methods.solver",
-    "synthesize": ".transform",
-    "vertex_normals": ".library",
+_NAMES = {
+    ".equalizer": "equalize",
+    ".errors": "FrameError FrameletError MeshError RegionError SettingError TooLargeError",
+    ".frames": "BANKS FilterBank",
+    ".learned.noise_field": "NoiseBelief NoiseField noise_field",
+    ".library": "add_noise bilateral_filter compare denoise estimate_noise face_normals vertex_normals",
+    ".limits.region": "Region",
+    ".mesh.connectivity": "Connectivity connect",
+    ".mesh.surface_mesh": "SurfaceMesh",
+    ".methods.proximal": "FirmThreshold HardThreshold SoftThreshold",
+    ".methods.solver": "split_bregman",
+    ".metrics": "Comparison",
+    ".noise": "NoiseEstimate",
+    ".preparation_cache": "PreparationCache",
+    ".prepared": "Prepared prepare",
+    ".report": "DenoiseReport DenoiseResult",
+    ".settings": "DEFAULT_PRESET DenoiseSettings PRESETS",
+    ".stencils": "Stencil make_stencil",
+    ".transform": "FrameCoefficients FrameTransform adjoint analyze make_transform synthesize",
 }
+"""The public names of each module."""
 
-__all__ = [
-    "BANKS",
-    "DEFAULT_PRESET",
-    "PRESETS",
-    "Comparison",
-    "Connectivity",
-    "DenoiseReport",
-    "DenoiseResult",
-    "DenoiseSettings",
-    "FilterBank",
-    "FirmThreshold",
-    "FrameCoefficients",
-    "FrameError",
-    "FrameTransform",
-    "FrameletError",
-    "HardThreshold",
-    "MeshError",
-    "NoiseBelief",
-    "NoiseEstimate",
-    "NoiseField",
-    "PreparationCache",
-    "Prepared",
-    "Region",
-    "RegionError",
-    "SettingError",
-    "SoftThreshold",
-    "Stencil",
-    "SurfaceMesh",
-    "TooLargeError",
-    "add_noise",
-    "adjoint",
-    "analyze",
-    "bilateral_filter",
-    "compare",
-    "connect",
-    "denoise",
-    "equalize",
-    "estimate_noise",
-    "face_normals",
-    "make_stencil",
-    "make_transform",
-    "noise_field",
-    "prepare",
-    "split_bregman",
-    "synthesize",
-    "vertex_normals",
-]
+_HOMES = {name: home for home, names in _NAMES.items() for name in names.split()}
+
+__all__ = sorted(_HOMES)
+
+
+def __dir__() -> list[str]:
+    return __all__
 
 
 def __getattr__(name: str) -> Any:
@@ -140,6 +74,5 @@ def __getattr__(name: str) -> Any:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     home = import_module(_HOMES[name], __name__)
     # All names of a home at once: a module may be called like a function, as `denoise` is.
-    names = [other for other, place in _HOMES.items() if place == _HOMES[name]]
-    globals().update({other: getattr(home, other) for other in names})
+    globals().update({other: getattr(home, other) for other in _NAMES[_HOMES[name]].split()})
     return globals()[name]

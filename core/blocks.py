@@ -18,7 +18,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from .processors import available_cores
+from .processors import default_threads
 
 Result = TypeVar("Result")
 
@@ -32,18 +32,20 @@ class Stopped(Exception):
 class Blocks:
     """Threads that run kernels over index ranges; a context manager, which may be entered again.
 
+    Functions that take a parameter `blocks` do their work on it; without one, on the calling thread.
+
     Outside of `with`, kernels run on the calling thread.
 
     Parameters
     ----------
     n_threads : int
-        Number of threads; 0 takes as many as `processors` says.
+        Number of threads; 0 for as many as `processors` says.
     block_size : int
         Number of elements in a block.
     """
 
     def __init__(self, n_threads: int = 0, block_size: int = BLOCK_SIZE) -> None:
-        self.n_threads = n_threads or available_cores()
+        self.n_threads = n_threads or default_threads()
         self.block_size = block_size
         self._pool: ThreadPoolExecutor | None = None
         self._owner = self  # whose threads these are
@@ -64,7 +66,7 @@ class Blocks:
 
     def with_threads(self, n_threads: int) -> Blocks:
         """Set the number of threads for the next time this is entered, and return this object."""
-        self.n_threads = n_threads or available_cores()
+        self.n_threads = n_threads or default_threads()
         return self
 
     def stopped_by(self, should_stop: Callable[[], bool] | None) -> Blocks:
@@ -105,25 +107,29 @@ class Blocks:
         errors: dict[int, BaseException] = {}
         # Every thread, the calling one too, takes the next number when it is done with a block: to hand out
         # blocks one by one would cost as much as a small kernel.
-        numbers = _Numbers(len(starts))
+        numbers, lock = iter(range(len(starts))), Lock()
 
-        def work(check: Callable[[], None]) -> int:
+        def take() -> int | None:
+            with lock:  # an iterator is not safe to share where Python runs several threads at a time
+                return None if errors else next(numbers, None)
+
+        def work(*, asks: bool) -> int:
             n_taken = 0
-            while (number := numbers.take()) is not None:
+            while (number := take()) is not None:
                 n_taken += 1
                 try:
-                    check()
+                    if asks:
+                        self.check()
                     start = starts[number]
                     results[number] = kernel(start, min(start + self.block_size, n_items))
                 except BaseException as error:
                     errors[number] = error
-                    numbers.stop()  # nothing is left for the others
             return n_taken
 
         pool = self._owner._pool
         n_helpers = 0 if pool is None else min(self._owner.n_threads, len(starts)) - 1
-        helpers = [pool.submit(work, _no_question) for _ in range(n_helpers)] if pool is not None else []
-        n_taken = work(self.check)
+        helpers = [pool.submit(work, asks=False) for _ in range(n_helpers)] if pool is not None else []
+        n_taken = work(asks=True)
         for helper in helpers:
             if not helper.cancel():
                 helper.result()
@@ -138,36 +144,17 @@ class Blocks:
         parts = self.run(lambda start, stop: start + np.flatnonzero(is_wanted(start, stop)), n_items)
         return np.concatenate(parts) if parts else np.zeros(0, np.intp)
 
+    def take(self, values: NDArray, index: NDArray[np.integer]) -> NDArray:
+        """Return `values[index]`, shape (n, ...), looked up on threads; the indices are trusted."""
+        values = np.ascontiguousarray(values)
+        result = np.empty((len(index), *values.shape[1:]), values.dtype)
+
+        def kernel(start: int, stop: int) -> None:
+            values.take(index[start:stop], axis=0, out=result[start:stop], mode="clip")
+
+        self.run(kernel, len(index))
+        return result
+
     def together(self, *tasks: Callable[[], Any]) -> list[Any]:
         """Call functions at the same time, as far as there are threads, and return what they return."""
         return self.with_block_size(1).run(lambda start, _: tasks[start](), len(tasks))
-
-
-class _Numbers:
-    """Numbers from 0 to below a count, each for one of the threads that take them.
-
-    The lock is what makes it right: an iterator that threads share is safe only as long as Python runs one
-    of them at a time.
-    """
-
-    def __init__(self, count: int) -> None:
-        self._lock = Lock()
-        self._next, self._count = 0, count
-
-    def take(self) -> int | None:
-        """Return the next number, or None if there is none left."""
-        with self._lock:
-            number = self._next
-            if number >= self._count:
-                return None
-            self._next = number + 1
-            return number
-
-    def stop(self) -> None:
-        """Give out no more numbers."""
-        with self._lock:
-            self._count = 0
-
-
-def _no_question() -> None:
-    """Do not ask whether to stop: that is for the calling thread."""

@@ -12,7 +12,7 @@ from numpy.typing import DTypeLike, NDArray
 
 from .blocks import Stopped
 from .limits.finish import finish
-from .limits.placed import place
+from .limits.placed import resolve
 from .limits.region import Region
 from .memory import check_memory
 from .mesh.connectivity import Connectivity
@@ -78,21 +78,21 @@ def denoise(
     began = perf_counter()
     settings = settings or PRESETS[DEFAULT_PRESET].settings
     region = region or Region()
-    placed = place(region, surface, movable)
+    resolved = resolve(region, surface, movable)  # what the region says about each vertex
     check_memory(surface, settings, max_bytes)
     try:
-        prepared = prepared_for(placed, settings, connectivity, dtype, should_stop, prepared)
+        prepared = prepared_for(resolved, settings, connectivity, dtype, should_stop, prepared)
         with prepared.blocks.with_threads(settings.threads).stopped_by(should_stop) as blocks:
-            placed = placed.renumbered(prepared.reordering)
-            problem = prepared.problem(placed, settings, blocks, callback)
+            resolved = resolved.renumbered(prepared.reordering)
+            problem = prepared.problem(resolved, settings, blocks, callback)  # in mean edge lengths
             solution = METHODS[settings.method](problem)
-            motion = prepared.motion(solution.points, blocks)
-            carrier = placed.carrier(prepared.connectivity, prepared.edge)
+            motion = prepared.motion(solution.points, blocks)  # in scene units again
+            welded = resolved.welded_mesh(prepared.connectivity, prepared.edge)
             finished = finish(
-                motion, carrier, placed, region, problem.constraints, blocks, prepared.known_faces(placed)
+                motion, welded, resolved, region, problem.constraints, blocks, prepared.known_faces(resolved)
             )
-            vertices = placed.in_given_order(finished.vertices)
-            report = account(placed, vertices, finished, problem, solution, began)
+            vertices = resolved.in_given_order(finished.vertices)
+            report = account(resolved, vertices, finished, problem, solution, began)
     except Stopped:
         return DenoiseResult(surface.vertices.copy(), stopped_report(surface, settings, began))
     return DenoiseResult(vertices, report)

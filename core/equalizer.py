@@ -9,7 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
-from .blocks import Blocks
+from .blocks import BLOCK_SIZE, Blocks
 from .errors import SettingError
 from .limits.constraints import find_constraints
 from .mesh.checks import check_surface
@@ -94,6 +94,8 @@ class Equalizer:
         Number of levels.
     frame, stencil, boundary, connectivity, threads, dtype
         See `equalize`.
+    block_size : int, optional
+        Vertices in a block of work for a thread.
 
     Raises
     ------
@@ -126,11 +128,12 @@ class Equalizer:
         connectivity: Connectivity | None = None,
         threads: int = 0,
         dtype: DTypeLike = np.float32,
+        block_size: int = BLOCK_SIZE,
     ) -> None:
         self.n_levels = n_levels
         self._vertices = surface.vertices.copy()
         self._edge = check_surface(surface)
-        self._blocks = Blocks(threads)
+        self._blocks = Blocks(threads, block_size)
         with self._blocks as blocks:
             connectivity = connectivity or connect(surface, blocks)
             normalized = normalize(surface, connectivity, self._edge)
@@ -158,7 +161,7 @@ class Equalizer:
         change = self._change([gain - 1.0 for gain in gains])
         if shares is not None:
             change *= shares
-        return displaced(self._vertices, change, np.zeros_like(change), self._edge)
+        return displaced(self._vertices, change * self._edge)
 
     def details(self) -> list[NDArray[np.float64]]:
         """Return what each level adds to the surface, finest first, shape (N, 3) each, in its unit.

@@ -37,10 +37,6 @@ def compare(surface: SurfaceMesh, reference: SurfaceMesh) -> Comparison:
     surface, reference : SurfaceMesh
         Two meshes with the same faces; not modified.
 
-    Returns
-    -------
-    Comparison
-
     Raises
     ------
     MeshError

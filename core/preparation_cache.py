@@ -10,12 +10,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import DTypeLike
 
-from .blocks import Blocks
 from .errors import FrameletError
-from .limits.placed import Placed
+from .limits.placed import ResolvedRegion
 from .mesh.connectivity import Connectivity
 from .mesh.surface_mesh import SurfaceMesh
-from .prepared import Prepared, prepare_again, prepare_once
+from .prepared import Prepared, prepare, prepare_again
 from .settings import DenoiseSettings
 
 MAX_BYTES = 2**30
@@ -52,9 +51,7 @@ class PreparationCache:
 
         The mesh may be edited in place afterwards: arrays that can be written to are copied.
         """
-        with Blocks(settings.threads) as blocks:
-            known = (kept for kept in reversed(self._kept) if kept.has_topology_of(surface, blocks))
-            previous = next(known, None)
+        previous = next((kept for kept in reversed(self._kept) if kept.has_topology_of(surface)), None)
         prepared = prepare_again(surface, settings, previous, dtype=dtype, should_stop=should_stop)
         # One for each topology: the old one would only serve if its positions came back.
         self._kept = [kept for kept in self._kept if kept is not previous]
@@ -69,40 +66,32 @@ class PreparationCache:
 
 
 def prepared_for(
-    placed: Placed,
+    resolved: ResolvedRegion,
     settings: DenoiseSettings,
     connectivity: Connectivity | None,
     dtype: DTypeLike,
     should_stop: Callable[[], bool] | None,
     known: Prepared | PreparationCache | None,
 ) -> Prepared:
-    """Return the mesh that a region is placed on, ready for work: made anew, or what is known of it.
+    """Return what is prepared of the mesh that a region is for: made anew, or what is known of it.
 
-    Parameters
-    ----------
-    placed : Placed
-        The mesh, which may be welded.
-    settings, connectivity, dtype, should_stop
-        See `prepare`; of a welded mesh the neighborhoods are others.
-    known : Prepared or PreparationCache or None
-        What was prepared before, or what keeps it.
-
-    Returns
-    -------
-    Prepared
+    `known` is what was prepared before, or what keeps it. Of a welded mesh the neighborhoods are not those
+    that were given.
 
     Raises
     ------
     FrameletError
         If what was prepared is for another mesh or other stencils.
     """
-    surface = placed.surface
-    if placed.weld is not None:
+    surface = resolved.surface
+    if resolved.weld is not None:
         connectivity = None
     if isinstance(known, PreparationCache):
         return known.prepare(surface, settings, dtype, should_stop)
     if known is None:
-        return prepare_once(surface, settings, connectivity, dtype, should_stop)
+        return prepare(
+            surface, settings, connectivity=connectivity, dtype=dtype, should_stop=should_stop, is_kept=False
+        )
     if not known.fits(surface, settings, dtype):
         raise FrameletError("This was prepared for another mesh or other stencils; prepare it again.")
     return known

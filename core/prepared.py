@@ -14,25 +14,24 @@ from typing import Any
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-from .blocks import Blocks
+from .blocks import BLOCK_SIZE, Blocks
 from .learned.engine import FaceEngine
 from .limits.constraints import Constraints, Corners, find_constraints, find_corners
 from .limits.face_watch import FaceState
 from .limits.lines import find_lines, smoothing_of
-from .limits.placed import Placed
+from .limits.placed import ResolvedRegion
 from .limits.straight_borders import find_curves, straightened
 from .mesh.checks import check_positions, check_surface
 from .mesh.connectivity import Connectivity, connect
+from .mesh.geometry import coordinate_rows
 from .mesh.locality import Reordering, is_scattered, reorder, spatial_order
 from .mesh.normalization import normalize
+from .mesh.spikes import without_spikes
 from .mesh.surface_mesh import SurfaceMesh
 from .methods.problem import Callback, Problem
-from .methods.shrinkage import SEPARABLE
+from .methods.proximal import SEPARABLE
 from .settings import DEFAULT_PRESET, PRESETS, DenoiseSettings
 from .transform import FrameTransform, choose_frame, make_transform
-
-COMPARED_AT_ONCE = 2**18
-"""Rows of two arrays that are compared in one piece."""
 
 TOPOLOGY = tuple(item.name for item in fields(SurfaceMesh) if item.name != "vertices")
 
@@ -88,10 +87,9 @@ class Prepared:
         """Tell whether this can be used for a mesh and settings: all arrays are compared value by value."""
         return self.has_topology_of(surface) and self.fits_positions(surface, settings, dtype)
 
-    def has_topology_of(self, surface: SurfaceMesh, blocks: Blocks | None = None) -> bool:
-        """Tell whether this was made for a mesh with the same faces and edges; `blocks` are threads."""
-        own = self.surface
-        return all(_is_same(getattr(own, name), getattr(surface, name), blocks) for name in TOPOLOGY)
+    def has_topology_of(self, surface: SurfaceMesh) -> bool:
+        """Tell whether this was made for a mesh with the same faces and edges."""
+        return all(_is_same(getattr(self.surface, name), getattr(surface, name)) for name in TOPOLOGY)
 
     def fits_positions(
         self, surface: SurfaceMesh, settings: DenoiseSettings, dtype: DTypeLike = np.float32
@@ -100,31 +98,37 @@ class Prepared:
         return self.key == _key(settings, dtype) and _is_same(self.surface.vertices, surface.vertices)
 
     def problem(
-        self, placed: Placed, settings: DenoiseSettings, blocks: Blocks, callback: Callback | None
+        self, resolved: ResolvedRegion, settings: DenoiseSettings, blocks: Blocks, callback: Callback | None
     ) -> Problem:
         """Return what a method is given; the region goes by the numbers of `ordered`."""
         constraints = find_constraints(
-            self.ordered, self.connectivity, settings, placed.movable, self.noisy.dtype, self.corners
+            self.ordered, self.connectivity, settings, resolved.movable, self.noisy.dtype, self.corners
         )
-        given = self.noisy
-        if placed.straighten_borders:
-            given, constraints = self._with_straight_borders(constraints)
+        given, surface, engine = self.noisy, self.ordered, self.engine
+        if resolved.flatten_spikes:
+            surface = without_spikes(surface, constraints.pinned)
+            motion = (surface.vertices.astype(np.float64) - self.ordered.vertices).T / self.edge
+            given = given + motion.astype(given.dtype)
+            engine = None if engine is None else engine.placed(surface, self.connectivity)
+        if resolved.straighten_borders:
+            given, constraints = self._with_straight_borders(given, constraints)
         problem = Problem(
             noisy=given,
             given=given,
-            surface=self.ordered,
+            surface=surface,
             connectivity=self.connectivity,
             edge=self.edge,
             settings=settings,
             constraints=constraints,
             blocks=blocks,
             transform=self.transform,
-            engine=self.engine,
+            engine=engine,
             callback=callback,
+            movable=resolved.movable,
         )
-        if placed.feature_edges is None:
+        if resolved.feature_edges is None:
             return problem
-        lines = find_lines(given, placed.feature_edges, constraints.pinned)
+        lines = find_lines(given, resolved.feature_edges, constraints.pinned)
         noisy = given.copy()
         noisy[:, lines.inner] += smoothing_of(given, lines, _line_strength(settings)).astype(noisy.dtype)
         return replace(
@@ -134,13 +138,15 @@ class Prepared:
             line_vertices=len(lines.vertices),
         )
 
-    def _with_straight_borders(self, constraints: Constraints) -> tuple[NDArray[np.floating], Constraints]:
+    def _with_straight_borders(
+        self, given: NDArray[np.floating], constraints: Constraints
+    ) -> tuple[NDArray[np.floating], Constraints]:
         """Return the positions with smooth borders, and constraints that keep what was moved there."""
         curves = find_curves(self.connectivity.boundary_neighbors)
         stays = np.zeros(self.noisy.shape[1], bool)
         stays[constraints.pinned] = True
-        motion = straightened(self.noisy, curves, stays).astype(self.noisy.dtype)
-        points = self.noisy.copy()
+        motion = straightened(given, curves, stays).astype(given.dtype)
+        points = given.copy()
         points[:, curves.vertices] += motion
         return points, constraints.with_pinned(curves.vertices[motion.any(axis=0)])
 
@@ -157,12 +163,12 @@ class Prepared:
         blocks.run(kernel, points.shape[1])
         return motion
 
-    def known_faces(self, placed: Placed) -> list[FaceState]:
+    def known_faces(self, resolved: ResolvedRegion) -> list[FaceState]:
         """Return the list that what is found out about the faces of the input is kept in.
 
         What is known of the faces is known of a mesh that moves as it is.
         """
-        return self.faces if placed.weld is None else []
+        return self.faces if resolved.weld is None else []
 
 
 def prepare(
@@ -173,6 +179,8 @@ def prepare(
     dtype: DTypeLike = np.float32,
     previous: Prepared | None = None,
     should_stop: Callable[[], bool] | None = None,
+    block_size: int = BLOCK_SIZE,
+    is_kept: bool = True,
 ) -> Prepared:
     """Do all of a run that does not depend on λ, μ, δ, iterations, tolerance and movable vertices.
 
@@ -191,10 +199,11 @@ def prepare(
         faces are the same, its neighborhoods are used.
     should_stop : callable, optional
         Asked many times; returns True to stop.
-
-    Returns
-    -------
-    Prepared
+    block_size : int, optional
+        Vertices in a block of work for a thread.
+    is_kept : bool
+        Whether the result is kept. If it serves one run only, during which nobody writes to the mesh, the
+        mesh is not copied.
 
     Raises
     ------
@@ -207,18 +216,9 @@ def prepare(
     settings = settings or PRESETS[DEFAULT_PRESET].settings
     if previous is not None and not previous.has_topology_of(surface):
         previous = None
-    return prepare_again(surface, settings, previous, connectivity, dtype, should_stop)
-
-
-def prepare_once(
-    surface: SurfaceMesh,
-    settings: DenoiseSettings,
-    connectivity: Connectivity | None,
-    dtype: DTypeLike,
-    should_stop: Callable[[], bool] | None,
-) -> Prepared:
-    """Do what `prepare` does for one run, during which nobody may write to the mesh: it is not copied."""
-    return prepare_again(surface, settings, None, connectivity, dtype, should_stop, is_kept=False)
+    return prepare_again(
+        surface, settings, previous, connectivity, dtype, should_stop, is_kept=is_kept, block_size=block_size
+    )
 
 
 def prepare_again(
@@ -230,35 +230,21 @@ def prepare_again(
     should_stop: Callable[[], bool] | None = None,
     *,
     is_kept: bool = True,
+    block_size: int = BLOCK_SIZE,
 ) -> Prepared:
-    """Do what `prepare` does, with something `previous` that is known to have the topology of the mesh.
-
-    Unless `is_kept`, nobody may write to the mesh as long as the result is used, so that it is not copied.
-    """
+    """Do what `prepare` does, with something `previous` that is known to have the topology of the mesh."""
     if previous is not None and previous.fits_positions(surface, settings, dtype):
         return previous
     if is_kept:
         # Of a mesh that is known only the positions are new.
         known = surface if previous is None else previous.surface
         surface = known.with_vertices(surface.vertices).frozen()
-    return _prepare(surface, settings, previous, connectivity, dtype, should_stop)
-
-
-def _prepare(
-    surface: SurfaceMesh,
-    settings: DenoiseSettings,
-    previous: Prepared | None,
-    connectivity: Connectivity | None,
-    dtype: DTypeLike,
-    should_stop: Callable[[], bool] | None,
-) -> Prepared:
-    """Prepare a mesh, with the neighborhoods of something that has the same topology, if there is one."""
     reordering = None
     if previous is not None:
         connectivity, reordering = previous.connectivity, previous.reordering
         if reordering is not None:
             reordering = reordering.with_vertices(surface.vertices)
-    blocks = Blocks(settings.threads)
+    blocks = Blocks(settings.threads, block_size)
     with blocks.stopped_by(should_stop):
         check_positions(surface)  # while its vertices have the numbers that the caller knows
         if connectivity is None and is_scattered(surface):
@@ -291,12 +277,7 @@ def _prepare(
         # The fit of learned shrinkage pulls nothing along borders, so that their corners need no care.
         boundary = "FREE" if settings.method == "AUTO" else settings.boundary
         corners = find_corners(ordered, connectivity, boundary)
-        noisy = np.empty((3, surface.n_vertices), dtype)
-
-        def turn(start: int, stop: int) -> None:
-            noisy[:, start:stop] = normalized[start:stop].T
-
-        blocks.run(turn, surface.n_vertices)
+        noisy = coordinate_rows(normalized, blocks, dtype)
     return Prepared(
         surface,
         reordering,
@@ -319,23 +300,13 @@ def _key(settings: DenoiseSettings, dtype: DTypeLike) -> tuple[Any, ...]:
     return (settings.method, settings.boundary, np.dtype(dtype), *frame)
 
 
-def _is_same(first: NDArray, second: NDArray, blocks: Blocks | None = None) -> bool:
+def _is_same(first: NDArray, second: NDArray) -> bool:
     """Tell whether two arrays have the same type, shape and values."""
-    if first is second:
-        return True
-    if first.dtype != second.dtype or first.shape != second.shape:
-        return False
-
-    def kernel(start: int, stop: int) -> bool:
-        return np.array_equal(first[start:stop], second[start:stop])
-
-    return all((blocks or Blocks(1)).with_block_size(COMPARED_AT_ONCE).run(kernel, len(first)))
+    return first is second or (first.dtype == second.dtype and np.array_equal(first, second))
 
 
 def _line_strength(settings: DenoiseSettings) -> float:
     """Return how much of the noise on feature lines is removed: nothing where nothing else is."""
-    if settings.method == "AUTO":
-        return settings.strength
     if settings.method == "POSITIONS" and settings.tuning == "GIVEN" and settings.lambda_ == 0.0:
         return 0.0
-    return 1.0
+    return settings.strength

@@ -1,28 +1,18 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How many threads run where none are asked for.
-
-This is the one number that the mathematics takes from its surroundings. What Python says is not always what
-there is: a container may get less. Programs that know it say so by `use_processors`.
-"""
+"""How many threads run where none are asked for: one, unless the program knows how many processors it has."""
 
 from __future__ import annotations
 
-import os
-
-_told = 0
+_default = 1
 
 
-def use_processors(number: int) -> None:
-    """Set how many threads run by default; 0 for as many as Python says there are."""
-    global _told
-    _told = number
+def set_default_threads(number: int) -> None:
+    """Set how many threads run by default, at least 1. The package itself does so when it is imported."""
+    global _default
+    _default = max(number, 1)
 
 
-def available_cores() -> int:
+def default_threads() -> int:
     """Return how many threads run by default."""
-    if _told:
-        return _told
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
+    return _default

@@ -11,37 +11,37 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .limits.finish import Finished
-from .limits.placed import Placed
+from .limits.placed import ResolvedRegion
 from .mesh.surface_mesh import SurfaceMesh
 from .methods.problem import Problem, Solution
 from .noise import NoiseEstimate
 from .settings import DenoiseSettings
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class DenoiseReport:
     """An account of a run; lengths are in the units of the mesh."""
 
     n_vertices: int
     n_faces: int
-    n_moved: int
+    n_moved: int = 0
     """Vertices that moved at all."""
-    iterations: int
+    iterations: int = 0
     """Iterations that ran, fewer than asked for if the tolerance was met or the run was stopped."""
-    is_stopped: bool
+    is_stopped: bool = False
     """True if the run was stopped from outside."""
-    mean_edge_length: float
-    displacement_rms: float
-    displacement_max: float
-    flipped_faces: int
+    mean_edge_length: float = 0.0
+    displacement_rms: float = 0.0
+    displacement_max: float = 0.0
+    flipped_faces: int = 0
     """Faces whose normal turned by more than a right angle, as where a fold or a spike was smoothed out."""
-    volume_change: float | None
+    volume_change: float | None = None
     """(after - before) / before; None unless the mesh is closed."""
-    irregular_vertices: int
+    irregular_vertices: int = 0
     """Vertices that took the stencil's rule for irregular vertices."""
-    boundary_vertices: int
-    non_manifold_vertices: int
-    loose_vertices: int
+    boundary_vertices: int = 0
+    non_manifold_vertices: int = 0
+    loose_vertices: int = 0
     """Vertices without a face; they do not move."""
     seconds: float
     settings: DenoiseSettings
@@ -75,54 +75,26 @@ def stopped_report(surface: SurfaceMesh, settings: DenoiseSettings, began: float
     return DenoiseReport(
         n_vertices=surface.n_vertices,
         n_faces=surface.n_faces,
-        n_moved=0,
-        iterations=0,
         is_stopped=True,
-        mean_edge_length=0.0,
-        displacement_rms=0.0,
-        displacement_max=0.0,
-        flipped_faces=0,
-        volume_change=None,
-        irregular_vertices=0,
-        boundary_vertices=0,
-        non_manifold_vertices=0,
-        loose_vertices=0,
         seconds=perf_counter() - began,
         settings=settings,
     )
 
 
 def account(
-    placed: Placed,
+    resolved: ResolvedRegion,
     vertices: NDArray[np.floating],
     finished: Finished,
     problem: Problem,
     solution: Solution,
     began: float,
 ) -> DenoiseReport:
-    """Return the report of a finished run.
+    """Return the report of a finished run that began at a time of `time.perf_counter`.
 
-    Parameters
-    ----------
-    placed : Placed
-        The mesh that was given.
-    vertices : ndarray, shape (N, 3)
-        Its new positions.
-    finished : Finished
-        What was limited and mended.
-    problem : Problem
-        What the method was given.
-    solution : Solution
-        What it found.
-    began : float
-        Time of `time.perf_counter` at the start.
-
-    Returns
-    -------
-    DenoiseReport
+    `vertices`, shape (N, 3), are the new positions of the mesh that was given.
     """
-    surface, watch = placed.original, finished.watch
-    connectivity = watch.carrier.connectivity
+    surface, watch = resolved.original, finished.watch
+    connectivity = watch.welded.connectivity
 
     def measure(start: int, stop: int) -> tuple[int, float, float]:
         moved = vertices[start:stop].astype(np.float64) - surface.vertices[start:stop]
@@ -140,7 +112,7 @@ def account(
         n_moved=sum(n_moved),
         iterations=solution.iterations,
         is_stopped=solution.is_stopped,
-        mean_edge_length=watch.carrier.edge,
+        mean_edge_length=watch.welded.edge,
         displacement_rms=float(np.sqrt(sum(squares) / surface.n_vertices)),
         displacement_max=float(np.sqrt(max(largest))),
         flipped_faces=watch.n_turned,
@@ -158,5 +130,5 @@ def account(
         settings=solution.settings,
         noise=solution.noise,
         line_vertices=problem.line_vertices,
-        welded_vertices=0 if placed.weld is None else placed.weld.n_merged,
+        welded_vertices=0 if resolved.weld is None else resolved.weld.n_merged,
     )

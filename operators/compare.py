@@ -13,6 +13,7 @@ from .mesh_io import mesh_bridge
 from .preview import targets
 from .properties.scene_units import length_text, surface_in_scene
 from .reports.filled_reports import fill_comparison
+from .shortage import shortage_told
 
 if TYPE_CHECKING:
     from ..core import Comparison
@@ -75,7 +76,8 @@ class OBJECT_OT_framelet_compare(bpy.types.Operator):
         obj = context.active_object
         try:
             other = self._find_other(context)
-            comparison = compare_objects(obj, other)
+            with shortage_told(obj.name):
+                comparison = compare_objects(obj, other)
         except ValueError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}

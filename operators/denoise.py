@@ -12,6 +12,7 @@ from bpy.app.translations import pgettext_tip as tip_
 from .denoise_report import report_written
 from .preview import targets
 from .preview.current_preview import end_preview
+from .properties.own_settings import remember_settings, shown_settings
 from .properties.region_settings import RegionMixin
 from .properties.region_values import as_typed, to_region_options
 from .properties.setting_values import all_values, fill, to_settings
@@ -37,7 +38,8 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, RegionMixin, bpy.ty
 
     from_original: bpy.props.BoolProperty(
         name="From the Original",
-        description="Where a mesh still is what the last run made, start from where its vertices were before",
+        description="Where a mesh still is what the last run made, start from where its vertices were "
+        "before; False, if given, starts from the result, also from that in a modifier",
         options={"SKIP_SAVE"},
     )
 
@@ -132,7 +134,9 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, RegionMixin, bpy.ty
         fill(self, all_values(self))
         end_preview()
         if self.options.is_repeat:
-            context.scene.framelet.amount, context.scene.framelet.output = self.amount, self.output
+            settings_shown = shown_settings(context)
+            settings_shown.amount, settings_shown.output = self.amount, self.output
+        is_given = self.properties.is_property_set("from_original")
         try:
             self._run: DenoiseRun = begin_run(
                 targets.target_objects(context),
@@ -140,7 +144,7 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, RegionMixin, bpy.ty
                 self.output,
                 to_region_options(self),
                 amount=as_typed(self.amount),
-                from_original=self.from_original,
+                from_original=self.from_original if is_given else None,
             )
             set_current(self._run)
         except ValueError as error:
@@ -165,6 +169,13 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, RegionMixin, bpy.ty
             self.report({"ERROR"}, run.reason)
             return {"CANCELLED"}
         written = run.finish()
+        if not written:
+            self.report({"ERROR"}, run.reason)
+            return {"CANCELLED"}
+        if self.options.is_invoke:
+            # The settings of the active object, which all were denoised with.
+            for obj in {each for item in written for each in (item.original, item.obj)}:
+                remember_settings(obj, self)
         if run.failures:
             self.report({"WARNING"}, " ".join(run.failures))
         report_written(self, context, written)

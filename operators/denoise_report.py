@@ -37,9 +37,10 @@ def report_written(
     fill_report(report, measured)
     fill_estimate_of_run(context.window_manager.framelet_estimate, measured)
     refresh_heat(context, [item.obj for item in written])
-    notes = [item.note for item in written]
+    found = [hint for item in written for hint in hints(item.original, item.measured.steps)]
+    report.hints = "\n".join(dict.fromkeys(found))
+    notes = [item.note for item in written] + found
     for item in written:
-        notes += hints(item.original)
         edge = item.measured.report.mean_edge_length
         step = (
             coarse_step(read_positions(item.original.data), edge) if item.original.mode == "OBJECT" else 0.0

@@ -7,10 +7,12 @@ from __future__ import annotations
 import bpy
 from bpy.app.handlers import persistent
 
+from . import own_soon
 from .bands.transforms import forget_transforms
 from .mesh_io import kept_original
 from .modifier.cage import forget_cages
 from .preview import current_preview
+from .properties.own_settings import has_own
 from .properties.setting_values import replace_lost
 from .run.current_run import drop_current, stop_current, touch_current
 from .run.outcome_memory import forget_outcomes
@@ -51,6 +53,8 @@ def _after_load(*_: object) -> None:
     kept_original.put_all_back()
     for scene in bpy.data.scenes:
         replace_lost(scene.framelet)
+    for obj in filter(has_own, bpy.data.objects):
+        replace_lost(obj.framelet)
 
 
 @persistent
@@ -109,6 +113,7 @@ def unregister() -> None:
     for name, handler in _HANDLERS.items():
         getattr(bpy.app.handlers, name).remove(handler)
     stop_current()
+    own_soon.stop()
     current_preview.stop_preview()
     forget_preparations()
     forget_outcomes()

@@ -13,29 +13,36 @@ from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from .colors.coloring import chosen_limit, color_objects
-from .colors.heat_settings import LIMITS, HeatMixin, shown_heat_names
+from .colors.heat_settings import LIMITS, TOLERANCES, HeatMixin, shown_heat_names
 from .colors.heat_values import QUANTITIES, heat_values
 from .colors.viewport import hide_unused_colors, show_vertex_colors
 from .mesh_io import band_storage
 from .preview import targets
 from .properties.scene_units import value_texts
+from .properties.setting_values import as_typed
 from .reports.filled_reports import fill_band_range
 from .run import run_memory
+from .shortage import shortage_told
 
 if TYPE_CHECKING:
     from .bands.band_values import BandValues, ColorRange
 
 
 def show_heat(
-    context: bpy.types.Context, found: dict[str, BandValues], quantity: str, limit: float
+    context: bpy.types.Context, found: dict[str, BandValues], quantity: str, properties: Any
 ) -> ColorRange:
-    """Color the objects of values, by object name, and take down what the colors mean.
+    """Color the objects of values, by object name, as a `HeatMixin` says, and take down what the colors mean.
 
     Quantities that have an attribute of their own are written there too.
     """
     kind = QUANTITIES[quantity]
     colored = color_objects(
-        list(found.values()), kind.is_signed, limit, band_storage.HEAT_COLORS, kind.domain
+        list(found.values()),
+        kind.is_signed,
+        _heat_limit(properties, found, quantity),
+        band_storage.HEAT_COLORS,
+        kind.domain,
+        _heat_tolerance(properties, kind.unit),
     )
     fill_band_range(
         context.window_manager.framelet_band_range,
@@ -66,8 +73,7 @@ def refresh_heat(context: bpy.types.Context, objects: Iterable[bpy.types.Object]
         shown.objects.clear()
         return
     found = {obj.name: heat_values(obj, shown.quantity) for obj in colored}
-    limit = _heat_limit(context.scene.framelet_heat_map, found, shown.quantity)
-    show_heat(context, found, shown.quantity, limit)
+    show_heat(context, found, shown.quantity, context.scene.framelet_heat_map)
 
 
 def _heat_limit(properties: Any, found: dict[str, BandValues], quantity: str) -> float:
@@ -76,6 +82,12 @@ def _heat_limit(properties: Any, found: dict[str, BandValues], quantity: str) ->
     unit = QUANTITIES[quantity].unit
     limit = chosen_limit(properties, values, LIMITS[unit])
     return degrees(limit) if unit == "ANGLE" and properties.range_rule == "FIXED" else limit
+
+
+def _heat_tolerance(properties: Any, unit: str) -> float:
+    """Return up to which magnitude values are green; 0 for none."""
+    tolerance = as_typed(getattr(properties, TOLERANCES[unit])) if unit in TOLERANCES else 0.0
+    return degrees(tolerance) if unit == "ANGLE" else tolerance
 
 
 class OBJECT_OT_framelet_heat_map(HeatMixin, bpy.types.Operator):
@@ -108,14 +120,14 @@ class OBJECT_OT_framelet_heat_map(HeatMixin, bpy.types.Operator):
         if not done:
             return {"CANCELLED"}
         try:
-            limit = _heat_limit(self, done, self.quantity)
+            with shortage_told(", ".join(done)):
+                found = show_heat(context, done, self.quantity, self)
         except ValueError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        found = show_heat(context, done, self.quantity, limit)
         show_vertex_colors(context)
         shown = context.window_manager.framelet_band_range
-        lowest, highest = value_texts(context.scene, [shown.minimum, limit], kind.unit)
+        lowest, highest = value_texts(context.scene, [shown.minimum, found.limit], kind.unit)
         self.report(
             {"INFO"},
             rpt_(

@@ -8,8 +8,9 @@ import bpy
 from bpy.app.translations import pgettext_n as n_
 
 from .denoise_report import report_written
-from .preview import targets
+from .preview import preview_session, targets
 from .preview.current_preview import current_preview, end_preview, start_preview
+from .properties.own_settings import settings_of
 from .run.current_run import IS_RUNNING, current_run
 from .window_events import cancels
 
@@ -35,6 +36,8 @@ class OBJECT_OT_framelet_preview(bpy.types.Operator):
             reason = n_("Make a mesh object active")
         elif context.mode != "OBJECT":
             reason = n_("Switch to Object Mode")
+        elif len(obj.data.vertices) > preview_session.MOST_VERTICES:
+            reason = n_("The mesh has too many vertices for a preview; press Denoise")
         return targets.allows(cls, reason)
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
@@ -95,7 +98,7 @@ class OBJECT_OT_framelet_apply_preview(bpy.types.Operator):
         session = current_preview()
         assert session is not None  # see `poll`
         try:
-            written = session.apply(context.scene.framelet.output)
+            written = session.apply(settings_of(session.find_object(), context.scene).output)
         except ValueError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}

@@ -5,7 +5,6 @@
 import bpy
 from bpy.utils import register_classes_factory
 
-from ..core.processors import use_processors
 from . import edit_modifier, handlers, outliers
 from .add_noise import OBJECT_OT_framelet_add_noise
 from .analyze import OBJECT_OT_framelet_analyze, OBJECT_OT_framelet_clear
@@ -18,8 +17,8 @@ from .equalize import OBJECT_OT_framelet_equalize, OBJECT_OT_framelet_live_equal
 from .estimate_noise import OBJECT_OT_framelet_estimate_noise
 from .heat_map import OBJECT_OT_framelet_heat_map, OBJECT_OT_framelet_hide_colors
 from .live_preview import OBJECT_OT_framelet_apply_preview, OBJECT_OT_framelet_preview
-from .machine import available_processors
 from .mesh_io import mesh_facts
+from .pick_face_set import OBJECT_OT_framelet_pick_face_set
 from .properties.band_settings import FrameletBands, FrameletEqualizer
 from .properties.presets import OBJECT_OT_framelet_preset_add
 from .properties.settings import FrameletSettings
@@ -62,12 +61,14 @@ classes = (
     OBJECT_OT_framelet_heat_map,
     OBJECT_OT_framelet_hide_colors,
     OBJECT_OT_framelet_preset_add,
+    OBJECT_OT_framelet_pick_face_set,
     *edit_modifier.classes,
     *outliers.classes,
 )
 
 POINTERS = (
     (bpy.types.Scene, "framelet", FrameletSettings),
+    (bpy.types.Object, "framelet", FrameletSettings),
     (bpy.types.Scene, "framelet_bands", FrameletBands),
     (bpy.types.Scene, "framelet_equalizer", FrameletEqualizer),
     (bpy.types.Scene, "framelet_heat_map", FrameletHeatMap),
@@ -76,14 +77,13 @@ POINTERS = (
     (bpy.types.WindowManager, "framelet_comparison", FrameletComparison),
     (bpy.types.WindowManager, "framelet_band_range", FrameletBandRange),
 )
-"""Owner, name and class of what is kept with scenes and windows."""
+"""Owner, name and class of what is kept with scenes, objects and windows."""
 
 _register_classes, _unregister_classes = register_classes_factory(classes)
 
 
 def register() -> None:
     """Register the classes, the pointers to them and the command."""
-    use_processors(available_processors())
     _register_classes()
     for owner, name, kind in POINTERS:
         setattr(owner, name, bpy.props.PointerProperty(type=kind))

@@ -14,6 +14,7 @@ from .preview import targets
 from .properties.band_settings import ShowMixin, shown_names
 from .properties.scene_units import length_text
 from .reports.filled_reports import fill_band_range
+from .shortage import shortage_told
 
 
 class OBJECT_OT_framelet_show_band(ShowMixin, bpy.types.Operator):
@@ -43,11 +44,12 @@ class OBJECT_OT_framelet_show_band(ShowMixin, bpy.types.Operator):
         if not done:
             return {"CANCELLED"}
         try:
-            limit = chosen_limit(self, [values for _, values in done.values()])
+            with shortage_told(", ".join(done)):
+                limit = chosen_limit(self, [values for _, values in done.values()])
+                found = color_objects(list(done.values()), choice.is_signed, limit)
         except ValueError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        found = color_objects(list(done.values()), choice.is_signed, limit)
         show_vertex_colors(context)
         shown = context.window_manager.framelet_band_range
         fill_band_range(shown, list(done), choice.title, found, is_signed=choice.is_signed)

@@ -35,6 +35,17 @@ def cancels(context: bpy.types.Context, event: bpy.types.Event) -> bool:
     return view is not None and not _is_over(view.regions, event)
 
 
+def view_under_mouse(
+    context: bpy.types.Context, event: bpy.types.Event
+) -> tuple[bpy.types.Area, bpy.types.Region] | None:
+    """Return the 3D View under the mouse and the region that it is drawn in; None elsewhere."""
+    for area in context.window.screen.areas:
+        if area.type == "VIEW_3D" and _is_within(area, event) and not _is_over(area.regions, event):
+            region = next((each for each in area.regions if each.type == "WINDOW"), None)
+            return None if region is None else (area, region)
+    return None
+
+
 def is_mesh_being_read() -> bool:
     """Tell whether Blender renders or bakes, while which no mesh may be written to: it may crash."""
     return any(map(is_job_running, READERS))

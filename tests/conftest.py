@@ -43,6 +43,17 @@ def rng(request):
 
 
 @pytest.fixture
+def one_thread():
+    """One thread unless told: more only cost time on meshes as small as those of tests."""
+    from framelet.core.processors import default_threads, set_default_threads
+
+    before = default_threads()
+    set_default_threads(1)
+    yield
+    set_default_threads(before)
+
+
+@pytest.fixture
 def exact(monkeypatch):
     """Whole series of means over rings, and none that were cut off before or after."""
     from framelet.core.averages import ring_means

@@ -8,15 +8,29 @@ import bpy
 class Layout:
     """Records what a panel draws, checking that properties and operators exist."""
 
-    def __init__(self, record=None, active=True):
-        kinds = ("prop", "label", "operator", "icon", "grayed", "menu", "pressed", "prop_enum")
+    def __init__(self, record=None, active=True, alert=False):
+        kinds = (
+            "prop",
+            "label",
+            "operator",
+            "icon",
+            "grayed",
+            "menu",
+            "pressed",
+            "prop_enum",
+            "progress",
+            "alert",
+        )
         self.record = record or {kind: [] for kind in kinds}
-        self.active = active
+        self.active, self.alert = active, alert
 
     def row(self, **_options):
-        return Layout(self.record, self.active)
+        return Layout(self.record, self.active, self.alert)
 
     column = split = row
+
+    def progress(self, text="", **_options):
+        self.record["progress"].append(text)
 
     def separator(self, **_options):
         pass
@@ -44,6 +58,8 @@ class Layout:
         self.record["label"].append(text)
         if not self.active:
             self.record["grayed"].append(text)
+        if self.alert:
+            self.record["alert"].append(text)
         if icon != "NONE":
             self.record["icon"].append((text, icon))
 

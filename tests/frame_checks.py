@@ -59,7 +59,7 @@ def check_frame(mesh, frame, levels=1, stencil="STRAIGHT", rng=None):
     for whole, one, two in zip(
         bands_of(transform, 2.0 * positions - other), arrays, bands_of(transform, other), strict=True
     ):
-        assert np.abs(whole - (2.0 * one - two)).max() <= 10 * EXACT * (scale + 10)
+        assert np.abs(whole - (2.0 * one - two)).max(initial=0.0) <= 10 * EXACT * (scale + 10)
     low, *details = bands_of(transform, np.ones_like(positions))
     assert np.abs(low - 1.0).max() <= EXACT
     assert all(np.abs(bands).max(initial=0.0) <= EXACT for bands in details)

@@ -384,7 +384,7 @@ def slow_hardly_moved(offsets, is_clean, is_free, means):
     return np.array(still)
 
 
-def slow_start(points, fitted, is_free, means, outlier=5.0, n_averages=32, least=5e-4):
+def slow_start(points, fitted, is_free, means, outlier=5.0, n_averages=32, least=5e-4, least_usual=0.01):
     """Return where a second fit holds vertices: outliers at the height of those in their rings, or None.
 
     Also by which factor the displacements miss being outliers, for tests to be sure.
@@ -393,6 +393,7 @@ def slow_start(points, fitted, is_free, means, outlier=5.0, n_averages=32, least
     distance = np.linalg.norm(step, axis=1)
     wide = averaging(means, n_averages)
     usual = wide @ np.minimum(distance, 2 * (wide @ distance))
+    usual = np.maximum(usual, least_usual)
     is_out = is_free & (distance > outlier * usual)
     result = points.copy()
     for v in np.flatnonzero(is_out):

@@ -5,7 +5,7 @@
 from functools import cache
 
 import numpy as np
-from checks import read_only
+from checks import read_only, wild_mesh
 from framelet.core.mesh.surface_mesh import SurfaceMesh
 
 
@@ -69,4 +69,4 @@ def relabeled(mesh, rng):
     faces = [faces[f] for f in rng.permutation(len(faces))]
     faces = [face[turn:] + face[:turn] for face in faces for turn in [int(rng.integers(max(len(face), 1)))]]
     is_loose = np.bincount(mesh.corner_edge, minlength=mesh.n_edges) == 0
-    return SurfaceMesh.from_faces(mesh.vertices[old], faces, new[mesh.edges[is_loose]]), old
+    return wild_mesh(mesh.vertices[old], faces, new[mesh.edges[is_loose]]), old

@@ -216,3 +216,14 @@ def faces_touching(mesh):
         for v in face:
             named[v].add(f)
     return [sorted(set().union(*(named[v] for v in face))) for face in faces_of(mesh)]
+
+
+def signed_volume(mesh):
+    """Return the volume of a closed and oriented mesh; faces are fans around the means of their corners."""
+    if not mesh.n_faces:
+        return 0.0
+    sizes = np.diff(mesh.face_offset)[:, None]
+    corners = (mesh.vertices - mesh.vertices.mean(axis=0, dtype=float))[mesh.corner_vertex]
+    middle = np.add.reduceat(corners, mesh.face_offset[:-1]) / sizes
+    crossed = np.cross(corners, corners[mesh.next_corner()])
+    return float((np.repeat(middle, sizes[:, 0], axis=0) * crossed).sum()) / 6.0

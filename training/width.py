@@ -9,13 +9,15 @@ from pathlib import Path
 import numpy as np
 import torch
 from numpy.typing import NDArray
-from torch import nn
+
+from core.learned.width import terms
 
 from .net import Net
 from .train import MOST_FACES, Draw, both_passes, load
 
-HIDDEN = 12
-N_STEPS = 1500
+RIDGE = 20.0
+"""Penalty on the squares of the weights: draws are few beside terms."""
+
 FARTHEST = 0.5
 """Largest logarithm of a ratio of errors: how much better a net is counts up to here."""
 
@@ -53,32 +55,16 @@ def fit(quantiles: NDArray[np.float32], gains: NDArray[np.float32], target: Path
 
     Returns the mean gain of the choice on draws that were kept aside, and of the best choice there.
     """
-    torch.manual_seed(0)
-    is_kept = np.arange(len(gains)) % 5 == 4
     mean, scale = quantiles.mean(axis=0), quantiles.std(axis=0) + np.float32(0.05)
-    rows = torch.from_numpy((quantiles - mean) / scale)
-    wanted = torch.from_numpy(gains.clip(-FARTHEST, FARTHEST))
-    enter, leave = nn.Linear(rows.shape[1], HIDDEN), nn.Linear(HIDDEN, 1)
-    model = nn.Sequential(enter, nn.Tanh(), leave, nn.Flatten(0))
-    optimizer = torch.optim.AdamW(model.parameters(), lr=0.01, weight_decay=0.1)
-    learned, kept = torch.from_numpy(~is_kept), torch.from_numpy(is_kept)
-    for step in range(N_STEPS):
-        optimizer.param_groups[0]["lr"] = 0.01 * (1 - step / N_STEPS)
-        # A little noise in the inputs, so that the choice does not hang on single draws.
-        noisy = rows[learned] + 0.1 * torch.randn(int(learned.sum()), rows.shape[1])
-        loss = nn.functional.smooth_l1_loss(model(noisy), wanted[learned], beta=0.1)
-        optimizer.zero_grad()
-        loss.backward()
-        optimizer.step()
-    with torch.no_grad():
-        chosen = (model(rows[kept]) > 0).numpy()
-    arrays = {
-        "mean": mean,
-        "scale": scale,
-        "enter": enter.weight.detach().numpy().T,
-        "enter_bias": enter.bias.detach().numpy(),
-        "leave": leave.weight.detach().numpy()[0],
-        "least": -leave.bias.detach().numpy()[0],
-    }
-    np.savez_compressed(target, **{name: np.asarray(array, np.float32) for name, array in arrays.items()})
+    rows = terms(quantiles, mean, scale).astype(np.float64)
+    wanted = gains.clip(-FARTHEST, FARTHEST)
+
+    def weights_of(own: NDArray[np.bool_]) -> NDArray[np.float64]:
+        form = rows[own].T @ rows[own] + RIDGE * np.eye(rows.shape[1])
+        return np.linalg.solve(form, rows[own].T @ wanted[own])
+
+    is_kept = np.arange(len(gains)) % 5 == 4
+    chosen = rows[is_kept] @ weights_of(~is_kept) > 0
+    weights = weights_of(np.ones(len(gains), bool)).astype(np.float32)
+    np.savez_compressed(target, mean=mean, scale=scale, weights=weights)
     return float((gains[is_kept] * chosen).mean()), float(gains[is_kept].clip(0).mean())

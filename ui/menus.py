@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Entries in Blender's own menus, which use the settings of the scene as the sidebar does.
+"""Entries in Blender's own menus, which use the settings that the sidebar shows.
 
 Blender's search (F3) finds what stands in menus. So every operator stands in the submenu Framelet.
 """
@@ -27,6 +27,7 @@ from ..operators.estimate_noise import OBJECT_OT_framelet_estimate_noise
 from ..operators.heat_map import OBJECT_OT_framelet_heat_map, OBJECT_OT_framelet_hide_colors
 from ..operators.outliers import classes as outlier_operators
 from ..operators.properties.band_settings import EQUALIZER_NAMES, SHOW_NAMES
+from ..operators.properties.own_settings import shown_settings
 from ..operators.properties.setting_values import (
     copy_frame_settings,
     copy_settings,
@@ -47,7 +48,7 @@ class VIEW3D_MT_framelet(bpy.types.Menu):
         """Draw an entry for each operator."""
         layout, scene = self.layout, context.scene
         operator = layout.operator(OBJECT_OT_framelet_denoise.bl_idname, icon="MOD_SMOOTH")
-        copy_settings(scene.framelet, operator)
+        copy_settings(shown_settings(context), operator)
         layout.operator(OBJECT_OT_framelet_before_after.bl_idname)
         layout.operator(OBJECT_OT_framelet_apply_modifier.bl_idname)
         layout.operator(OBJECT_OT_framelet_remove_modifier.bl_idname)
@@ -61,10 +62,10 @@ class VIEW3D_MT_framelet(bpy.types.Menu):
         layout.separator()
         for each in (OBJECT_OT_framelet_equalize, OBJECT_OT_framelet_live_equalizer):
             operator = layout.operator(each.bl_idname)
-            copy_frame_settings(scene.framelet, operator, ("frame", "stencil", "boundary"))
+            copy_frame_settings(shown_settings(context), operator, ("frame", "stencil", "boundary"))
             copy_values(scene.framelet_equalizer, operator, EQUALIZER_NAMES)
         operator = layout.operator(OBJECT_OT_framelet_analyze.bl_idname)
-        copy_frame_settings(scene.framelet, operator)
+        copy_frame_settings(shown_settings(context), operator)
         copy_values(scene.framelet_bands, operator, ("max_megabytes",))
         operator = layout.operator(OBJECT_OT_framelet_show_band.bl_idname)
         copy_values(scene.framelet_bands, operator, SHOW_NAMES)
@@ -88,7 +89,7 @@ def _draw_denoise(self: bpy.types.Menu, context: bpy.types.Context) -> None:
     operator = self.layout.operator(
         OBJECT_OT_framelet_denoise.bl_idname, text="Denoise (Framelet)", icon="MOD_SMOOTH"
     )
-    copy_settings(context.scene.framelet, operator)
+    copy_settings(shown_settings(context), operator)
 
 
 def _draw_submenu(self: bpy.types.Menu, _context: bpy.types.Context) -> None:

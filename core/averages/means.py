@@ -8,31 +8,17 @@ bytes, which NumPy does about three times faster than three items of four.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import NamedTuple
+from collections.abc import Callable, Sequence
+from itertools import pairwise, starmap
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import DTypeLike, NDArray
 
 from ..blocks import Blocks
-from ..mesh.ragged import Ragged
-from .parts import in_one_array
-
-ITEMS_IN_BLOCK = 2**16
-"""Items that are sorted by the sizes of their neighborhoods together."""
-
-MEMBERS_AT_ONCE = 2**15
-"""Members that a chunk may look up, so that their values stay in the cache."""
+from ..mesh.ragged import Chunk, Ragged
 
 CHUNKS_AT_ONCE = 4
 """Chunks in a piece of work for a thread."""
-
-
-class _Chunk(NamedTuple):
-    """Items with as many members: the number of the first one, and the members, shape (K, n)."""
-
-    begin: int
-    members: NDArray[np.int32]
 
 
 class Means:
@@ -43,45 +29,27 @@ class Means:
     neighborhoods : Ragged
         The members of each item.
     blocks : Blocks
-        Threads to work on.
+        Threads to work on. Items of two blocks are sorted by the sizes of their neighborhoods together, and
+        a chunk looks up as many members as a block has items, so that their values stay in the cache.
     is_square : bool
         Whether members are items themselves, so that fields of members are numbered as inside, too.
-    items_in_block, members_at_once : int, optional
-        Items that are sorted by the sizes of their neighborhoods together; members that a chunk may look up.
     """
 
-    def __init__(
-        self,
-        neighborhoods: Ragged,
-        blocks: Blocks,
-        *,
-        is_square: bool,
-        items_in_block: int = ITEMS_IN_BLOCK,
-        members_at_once: int = MEMBERS_AT_ONCE,
-    ) -> None:
-        offset, items = neighborhoods
-        n_items = len(offset) - 1
+    def __init__(self, neighborhoods: Ragged, blocks: Blocks, *, is_square: bool) -> None:
+        n_items = len(neighborhoods.offset) - 1
         self._blocks, self._item_blocks = blocks.with_block_size(CHUNKS_AT_ONCE), blocks
         self._items = np.empty(n_items, np.int32)
 
-        def make(start: int, stop: int) -> list[_Chunk]:
-            sizes = np.diff(offset[start : stop + 1])
-            by_size = np.argsort(sizes, kind="stable")
-            self._items[start:stop] = start + by_size
-            chunks, begin = [], start
-            for size in np.unique(sizes):
-                alike = start + by_size[begin - start :][: int((sizes == size).sum())]
-                at_once = max(1, members_at_once // max(int(size), 1))
-                for part in np.split(alike, range(at_once, len(alike), at_once)):
-                    members = items[offset[part] + np.arange(size)[:, None]]
-                    chunks.append(_Chunk(begin, members))
-                    begin += len(part)
+        def make(start: int, stop: int) -> list[Chunk]:
+            rows = np.arange(start, stop)
+            chunks = list(neighborhoods.chunks(rows, lambda size: blocks.block_size // max(size, 1)))
+            self._items[start:stop] = np.concatenate([chunk.rows for chunk in chunks])
             return chunks
 
-        made = blocks.with_block_size(items_in_block).run(make, n_items)
-        chunks = [chunk for part in made for chunk in part]
-        members = in_one_array([chunk.members for chunk in chunks], np.int32)
-        self._chunks = list(map(_Chunk, (chunk.begin for chunk in chunks), members))
+        made = blocks.with_block_size(2 * blocks.block_size).run(make, n_items)
+        members = in_one_array([chunk.items for part in made for chunk in part], np.int32)
+        ends = np.cumsum([0, *(own.shape[1] for own in members)]).tolist()
+        self._chunks = list(zip(starmap(slice, pairwise(ends)), members, strict=True))
         self._place = np.empty(n_items, np.int32)
         self._place[self._items] = np.arange(n_items, dtype=np.int32)
         if is_square:
@@ -95,29 +63,18 @@ class Means:
 
     def inward(self, field: NDArray) -> NDArray:
         """Return a field of the items, shape (n, ...), as it is numbered inside."""
-        return self._taken(field, self._items)
+        return self._item_blocks.take(field, self._items)
 
     def outward(self, field: NDArray) -> NDArray:
         """Return a field that is numbered as inside, shape (n, ...), as the caller numbers it."""
-        return self._taken(field, self._place)
-
-    def _taken(self, field: NDArray, numbers: NDArray[np.int32]) -> NDArray:
-        """Return the entries of a field with some numbers, looked up on threads."""
-        field = np.ascontiguousarray(field)
-        result = np.empty((len(numbers), *field.shape[1:]), field.dtype)
-
-        def kernel(start: int, stop: int) -> None:
-            field.take(numbers[start:stop], axis=0, out=result[start:stop], mode="clip")
-
-        self._item_blocks.run(kernel, len(numbers))
-        return result
+        return self._item_blocks.take(field, self._place)
 
     def for_parts(self, use: Callable[[slice, NDArray[np.int32]], None]) -> None:
         """Call `use(part, members)` for parts of the items, with their members, shape (K, n), on threads."""
 
         def kernel(start: int, stop: int) -> None:
-            for begin, members in self._chunks[start:stop]:
-                use(slice(begin, begin + members.shape[1]), members)
+            for part, members in self._chunks[start:stop]:
+                use(part, members)
 
         self._blocks.run(kernel, len(self._chunks))
 
@@ -147,6 +104,17 @@ class Means:
 
         self.visit(field, use)
         return result
+
+
+def in_one_array(parts: Sequence[NDArray], dtype: DTypeLike) -> list[NDArray]:
+    """Return copies of arrays that lie in one array.
+
+    Small arrays that live long would lie between those that come and go, and keep their memory from going
+    back to the system.
+    """
+    flat = np.concatenate([np.zeros(0, dtype), *(part.ravel() for part in parts)], dtype=dtype)
+    ends = np.cumsum([0, *(part.size for part in parts)])
+    return [flat[slice(*ends[k : k + 2])].reshape(part.shape) for k, part in enumerate(parts)]
 
 
 def padded(rows: NDArray[np.floating]) -> NDArray[np.floating]:

@@ -36,8 +36,6 @@ class RingMeans(Means):
         The mesh, for its edges.
     connectivity : Connectivity
         Its neighborhoods.
-    blocks : Blocks
-        Threads to work on.
     is_left_out : ndarray, shape (E,), bool, optional
         Edges that make no neighbors. A vertex with no other edges still has the mean of its neighbors, but
         counts for none of them.

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, DTypeLike, NDArray
+from numpy.typing import NDArray
 
 SINGLE_THREAD_LIMIT = 2**18
 """Multiply-adds below which a matrix library stays on the calling thread, instead of competing with ours."""
@@ -13,55 +13,6 @@ SINGLE_THREAD_LIMIT = 2**18
 _HADAMARD = np.array(
     [[2, 1, 1, 1, 1, 1, 1], [2, -1, -1, 1, -1, -1, 1], [2, 1, -1, -1, 1, -1, -1], [2, -1, 1, -1, -1, 1, -1]]
 )
-
-
-class MaskProduct:
-    """Applies some rows of a mask-matrix.
-
-    The four rows that Algorithm-Tri-2 needs of the box spline banks are, times eight, a 4-point Hadamard
-    transform of (2 V, P1 + P4, P2 + P5, P3 + P6): eight additions instead of 28 multiply-adds.
-
-    Parameters
-    ----------
-    masks : array_like, shape (B, T)
-        Rows to apply.
-    dtype : dtype
-        Precision to work in.
-    """
-
-    def __init__(self, masks: ArrayLike, dtype: DTypeLike) -> None:
-        masks = np.asarray(masks, np.float64)
-        self.is_hadamard = masks.shape == _HADAMARD.shape and bool((8.0 * masks == _HADAMARD).all())
-        self._masks = masks.astype(dtype)
-
-    def __call__(self, matrix: NDArray[np.floating]) -> NDArray[np.floating]:
-        """Return the coefficients, shape (3, B, n), of a data-matrix of shape (3, T, n)."""
-        coefficients = np.empty((3, len(self._masks), matrix.shape[2]), matrix.dtype)
-        if self.is_hadamard:
-            _hadamard(matrix[:, 0], matrix[:, 1:], coefficients[:, 0], coefficients[:, 1:])
-            return coefficients
-        return apply_matrix(self._masks, matrix, coefficients)
-
-    def high_bands(
-        self,
-        centers: NDArray[np.floating],
-        rings: NDArray[np.floating],
-        low: NDArray[np.floating] | None = None,
-    ) -> NDArray[np.floating]:
-        """Return the high bands of the Hadamard masks, shape (3, 3, n), of points that were not copied.
-
-        Parameters
-        ----------
-        centers : ndarray, shape (3, n)
-            The vertices themselves.
-        rings : ndarray, shape (3, 6, n)
-            The points under the other taps.
-        low : ndarray, shape (3, n), optional
-            Receives the low-pass.
-        """
-        bands = np.empty((3, 3, rings.shape[2]), rings.dtype)
-        _hadamard(centers, rings, low, bands)
-        return bands
 
 
 def apply_matrix(
@@ -77,13 +28,29 @@ def apply_matrix(
     return out
 
 
-def _hadamard(
-    centers: NDArray[np.floating],
-    rings: NDArray[np.floating],
-    low: NDArray[np.floating] | None,
-    high: NDArray[np.floating],
-) -> None:
-    """Butterflies for the masks `_HADAMARD` / 8."""
+def is_hadamard(masks: NDArray[np.floating]) -> bool:
+    """Return whether masks, shape (B, T), are the four that `hadamard_bands` applies."""
+    return masks.shape == _HADAMARD.shape and bool((8.0 * masks == _HADAMARD).all())
+
+
+def hadamard_bands(
+    centers: NDArray[np.floating], rings: NDArray[np.floating], low: NDArray[np.floating] | None = None
+) -> NDArray[np.floating]:
+    """Return the high bands, shape (3, 3, n), of the masks that Algorithm-Tri-2 needs of the box spline.
+
+    Times eight they are a 4-point Hadamard transform of (2 V, P1 + P4, P2 + P5, P3 + P6): eight additions
+    instead of 28 multiply-adds, and no data-matrix.
+
+    Parameters
+    ----------
+    centers : ndarray, shape (3, n)
+        The vertices themselves.
+    rings : ndarray, shape (3, 6, n)
+        The points under the other taps.
+    low : ndarray, shape (3, n), optional
+        Receives the low-pass.
+    """
+    high = np.empty((3, 3, rings.shape[2]), rings.dtype)
     eighth = high.dtype.type(0.125)
     pairs = rings[:, :3] + rings[:, 3:]
     center = centers + centers
@@ -98,3 +65,4 @@ def _hadamard(
     np.subtract(plus, both, out=high[:, 1])
     np.subtract(minus, apart, out=high[:, 2])
     high *= eighth
+    return high

@@ -20,6 +20,7 @@ from ..mesh.surface_mesh import SurfaceMesh
 from .face_graph import FACES_AT_ONCE, FaceGraph, Polygons
 from .features import Features, find_features
 from .islands import find_islands
+from .measured import Measured, find_measured
 from .scales import Scales, find_scales
 from .screened_fit import ScreenedFit
 from .taken import Taken, find_taken
@@ -95,16 +96,24 @@ class FaceEngine:
         points: NDArray[np.float32],
         taken: Taken | None = None,
         log_strength: float = 0.0,
+        measured: Measured | None = None,
     ) -> tuple[Scales, Features]:
         """Return scales and features of positions, shape (3, N), float32; see `find_features`."""
         scales = find_scales(points, self.graph, self.rings)
         return scales, find_features(
-            scales, self.graph, self.rings, self.at_vertex, self.island, taken, log_strength
+            scales, self.graph, self.rings, self.at_vertex, self.island, taken, log_strength, measured
         )
 
-    def taken(self, before: NDArray[np.float32], after: NDArray[np.float32]) -> Taken:
+    def measured(self, movable: NDArray[np.bool_]) -> Measured | None:
+        """Return where noise is measured if these vertices may move, shape (N,); None for everywhere."""
+        return find_measured(movable, self.graph, self.island)
+
+    def taken(
+        self, before: NDArray[np.float32], after: NDArray[np.float32], measured: Measured | None = None
+    ) -> Taken:
         """Return what was taken away between two positions, shape (3, N)."""
-        return find_taken(self.offsets(before, after), self.rings)
+        movable = None if measured is None else measured.movable
+        return find_taken(self.offsets(before, after), self.rings, movable)
 
     def vertex_normals(self, points: NDArray[np.float32]) -> NDArray[np.float32]:
         """Return unit vertex normals, shape (3, N): area-weighted means of the faces around a vertex."""

@@ -18,6 +18,7 @@ from ..averages.means import Means
 from ..averages.ring_means import RingMeans
 from .face_graph import FaceGraph, Polygons
 from .islands import faces_of_islands
+from .measured import Measured
 from .scales import N_SCALES, Scales
 from .taken import Taken
 
@@ -96,6 +97,7 @@ def find_features(
     island: NDArray[np.int32] | None,
     taken: Taken | None = None,
     log_strength: float = 0.0,
+    measured: Measured | None = None,
 ) -> Features:
     """Describe a surface for the net.
 
@@ -115,6 +117,8 @@ def find_features(
         What the pass before took away.
     log_strength : float
         Logarithm of Strength: added to the logarithms of fine jumps, and half of it to those of heights.
+    measured : Measured, optional
+        Whose faces count for what is known of islands; by default all.
     """
     n_bands = N_SCALES - 1
     pairs = np.zeros((graph.n_pairs + 1, N_EDGE), np.float32)
@@ -189,7 +193,8 @@ def find_features(
 
     graph.for_faces(energies_at)
     parts = [slice(None)] if island is None else faces_of_islands(island)
-    quantiles = np.array([_quantiles(spread[part], is_flat[part]) for part in parts])
+    counted = parts if measured is None else [measured.of(part) for part in parts]
+    quantiles = np.array([_quantiles(spread[own], is_flat[own]) for own in counted])
     stronger = quantiles + np.float32(log_strength) * _BY_STRENGTH
     row = None
     if island is not None:
@@ -205,7 +210,7 @@ def find_features(
             before[block, 1] = 2 * taken.correlation.take(polygons.corners).mean(axis=0)
 
         graph.for_faces(recall)
-    means = np.array([before[part].mean(axis=0) for part in parts])
+    means = np.array([before[own].mean(axis=0) for own in counted])
     context = np.concatenate((stronger, means), axis=1)
     at_faces = rings.inward(at_vertex.outward(at_vertex.mean(spread)))
     at_faces = rings.outward(rings.averaged(at_faces, SPREAD_AVERAGES))

@@ -7,6 +7,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..mesh.linking import linked_groups
 from .face_graph import FaceGraph
 
 LEAST_ISLAND = 500
@@ -18,32 +19,9 @@ def find_islands(graph: FaceGraph) -> NDArray[np.int32] | None:
 
     Parts are connected across edges and are numbered by their lowest faces.
     """
-    label = connected(graph.n_faces, graph.first[:-1], graph.second[:-1])
+    label = linked_groups(graph.n_faces, graph.first[:-1], graph.second[:-1])
     roots, island = np.unique(label, return_inverse=True)
     return island.reshape(-1).astype(np.int32) if len(roots) > 1 else None
-
-
-def connected(n_items: int, one: NDArray[np.int32], two: NDArray[np.int32]) -> NDArray[np.int32]:
-    """Return for each item the lowest item that it is connected with, shape (n,), int32.
-
-    `one` and `two`, shape (P,), are connected pairs. Each item points to a lower one of its part; in a round
-    items point where the item that they point to points, and a part that touches a lower one is hooked onto
-    it.
-    """
-    label = np.arange(n_items, dtype=np.int32)
-    while len(one):
-        low, high = label.take(one), label.take(two)
-        apart = np.flatnonzero(low != high)
-        if not len(apart):
-            break
-        one, two, low, high = one[apart], two[apart], low[apart], high[apart]
-        label[np.maximum(low, high)] = np.minimum(low, high)
-        while True:
-            above = label.take(label)
-            if np.array_equal(above, label):
-                break
-            label = above
-    return label
 
 
 def faces_of_islands(island: NDArray[np.int32]) -> list[NDArray[np.intp]]:

@@ -24,6 +24,7 @@ from ..noise.estimate import NoiseEstimate
 
 if TYPE_CHECKING:
     from .engine import FaceEngine
+    from .measured import Measured
 
 SPIKE, TIMES_AROUND = 1.0, 4.0
 """Displacement in local edge lengths, and in strengths of the noise around, of a spike."""
@@ -119,12 +120,17 @@ def noise_field(surface: SurfaceMesh, vertices: NDArray[np.floating]) -> NoiseFi
     return NoiseField(strength * np.float32(edge), width)
 
 
-def find_field(before: NDArray[np.float32], after: NDArray[np.float32], engine: FaceEngine) -> NoiseField:
+def find_field(
+    before: NDArray[np.float32],
+    after: NDArray[np.float32],
+    engine: FaceEngine,
+    measured: Measured | None = None,
+) -> NoiseField:
     """Return the noise that was taken away between two positions, shape (3, N) each."""
     if not engine.graph.n_faces:
         nothing = np.zeros(before.shape[1], np.float32)
         return NoiseField(nothing, nothing.copy())
-    strength, correlation = engine.taken(before, after)
+    strength, correlation = engine.taken(before, after, measured)
     is_wide = correlation > 0.02
     width = np.zeros_like(strength)
     width[is_wide] = 0.5 / np.sqrt(-np.log(np.minimum(correlation[is_wide], np.float32(0.999))))
@@ -138,6 +144,7 @@ def find_belief(
     engine: FaceEngine,
     edge: float,
     share_clean: float,
+    measured: Measured | None = None,
 ) -> NoiseBelief:
     """Summarize what a run took for noise.
 
@@ -153,18 +160,21 @@ def find_belief(
         Mean edge length in scene units.
     share_clean : float
         Share of the vertices that were found to be clean.
+    measured : Measured, optional
+        Where vertices may move; by default everywhere.
     """
     step = after - before
     distance = np.sqrt((step * step).sum(axis=0))
     moved = np.flatnonzero(distance)
     if not len(moved):
         return NoiseBelief(0.0, 0.0, 0.0, False, 0.0, 0.0, 0.0, 0.0, 0.0, share_clean)
-    field = find_field(before, after, engine)
+    field = find_field(before, after, engine, measured)
     strength, distance, own_unit = field.strength[moved], distance[moved], unit[moved]
     low, high = (float(value) for value in np.quantile(strength, (0.1, 0.9)))
     in_edges = strength / own_unit
     weights = np.square(in_edges, dtype=np.float64)
     is_spike = (distance > SPIKE * own_unit) & (distance > TIMES_AROUND * np.median(in_edges) * own_unit)
+    n_vertices = before.shape[1] if measured is None else int(np.count_nonzero(measured.movable))
     squares = np.square(distance / own_unit, dtype=np.float64)
     kurtosis = float((squares**2).mean() / squares.mean() ** 2)
     rms = float(np.sqrt(np.square(strength, dtype=np.float64).mean())) * edge
@@ -178,6 +188,6 @@ def find_belief(
         sigma_low=low * edge,
         sigma_high=high * edge,
         width=float((weights * field.width[moved]).sum() / max(weights.sum(), 1e-30)),
-        spikes=float(np.count_nonzero(is_spike)) / before.shape[1],
+        spikes=float(np.count_nonzero(is_spike)) / n_vertices,
         clean=share_clean,
     )

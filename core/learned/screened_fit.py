@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from ..averages.means import Means, padded
 from ..averages.ring_means import RingMeans
 from .face_graph import FaceGraph, Polygons
-from .unfolding import doubled_areas, unfolded_points
+from .unfolding import ROUNDS, doubled_areas, unfolded_points
 
 NORMAL_PULL = 0.006
 TANGENT_PULL = 0.1
@@ -36,6 +36,10 @@ NEEDLE = 0.1
 
 OUTLIER = 5.0
 """Displacement in units of what is usual around a vertex from which it is an outlier."""
+
+LEAST_USUAL = np.float32(0.01)
+"""What is usual at least, in local edge lengths: where there is no noise, displacements are of the size of
+rounding and curvature, and which of them stick out is chance."""
 
 OUTLIER_AVERAGES = 32
 """Averages over which the usual displacement is taken."""
@@ -66,6 +70,10 @@ class ScreenedFit:
         points: NDArray[np.float32],
         normals: NDArray[np.float32],
         is_free: NDArray[np.bool_] | None = None,
+        unit: NDArray[np.float32] | None = None,
+        *,
+        least_outliers: float = LEAST_OUTLIERS,
+        rounds: int = ROUNDS,
     ) -> NDArray[np.float32]:
         """Return fitted positions.
 
@@ -77,6 +85,12 @@ class ScreenedFit:
             Wanted unit normals of the faces of the graph.
         is_free : ndarray, shape (N,), bool, optional
             Vertices that may move; all by default.
+        unit : ndarray, shape (N,), float32, optional
+            Local edge lengths; 1 by default.
+        least_outliers : float
+            Share of the vertices from which outliers matter.
+        rounds : int
+            Rounds of unfolding at most.
 
         Returns
         -------
@@ -86,10 +100,10 @@ class ScreenedFit:
         if is_free is not None and is_free.all():
             is_free = None
         fitted = self._solved(points, normals, weights, STEPS, is_free)
-        start = self._without_outliers(points, fitted, is_free)
+        start = self._without_outliers(points, fitted, is_free, unit, least_outliers)
         if start is not None:
             fitted = self._solved(start, normals, weights, STEPS, is_free)
-        unfolded = unfolded_points(fitted, normals, self._graph, self._rings, is_free)
+        unfolded = unfolded_points(fitted, normals, self._graph, self._rings, is_free, rounds)
         return fitted if unfolded is None else self._solved(unfolded, normals, weights, STEPS // 2, is_free)
 
     def _needle_weights(self, points: NDArray[np.float32]) -> NDArray[np.float32]:
@@ -236,7 +250,12 @@ class ScreenedFit:
         return result
 
     def _without_outliers(
-        self, points: NDArray[np.float32], fitted: NDArray[np.float32], is_free: NDArray[np.bool_] | None
+        self,
+        points: NDArray[np.float32],
+        fitted: NDArray[np.float32],
+        is_free: NDArray[np.bool_] | None,
+        unit: NDArray[np.float32] | None,
+        least_outliers: float,
     ) -> NDArray[np.float32] | None:
         """Return positions to hold vertices at: those given, but outliers at the height of their rings.
 
@@ -248,11 +267,11 @@ class ScreenedFit:
         distance = np.sqrt((step * step).sum(axis=1))[:, None]
         usual = rings.averaged(distance.copy(), OUTLIER_AVERAGES)
         usual = rings.averaged(np.minimum(distance, 2 * usual), OUTLIER_AVERAGES)
-        # A mean of zeros is zero up to rounding only, also below.
-        is_out = (distance > np.maximum(OUTLIER * usual, 0))[:, 0]
+        least = LEAST_USUAL if unit is None else LEAST_USUAL * rings.inward(unit[:, None])
+        is_out = (distance > OUTLIER * np.maximum(usual, least))[:, 0]
         if is_free is not None:
             is_out &= rings.inward(is_free)
-        if np.count_nonzero(is_out) < LEAST_OUTLIERS * len(is_out):
+        if np.count_nonzero(is_out) < least_outliers * len(is_out):
             return None
         # Means over those in the ring that are no outliers; a fourth number counts them.
         others = rows.copy()

@@ -16,12 +16,13 @@ from numpy.typing import NDArray
 from ..averages.ring_means import RingMeans
 from ..blocks import Blocks
 from ..mesh.connectivity import Connectivity
+from ..mesh.linking import linked_groups
 from ..mesh.ragged import Ragged
 from ..mesh.surface_mesh import SurfaceMesh
 from ..noise.fits import fit_heights
 from ..noise.patches import find_patches, local_adjacency, spread_sample
 from .face_graph import FaceGraph, Polygons
-from .islands import connected
+from .measured import Measured
 from .scales import Scales
 
 ROUNDING = 4.0
@@ -72,17 +73,26 @@ NO_NOISE = 0.01
 """Root mean square of all displacements up to which there is no noise at all."""
 
 
-def flat_vertices(points: NDArray[np.float32], scales: Scales, graph: FaceGraph) -> NDArray[np.bool_]:
-    """Return the vertices of exactly flat parts, shape (N,), of positions (3, N)."""
+def flat_vertices(
+    points: NDArray[np.float32], scales: Scales, graph: FaceGraph, measured: Measured | None = None
+) -> NDArray[np.bool_]:
+    """Return the vertices of exactly flat parts, shape (N,), of positions (3, N).
+
+    How much of the mesh is flat is asked where something is `measured`; None for everywhere.
+    """
     result = np.zeros(points.shape[1], bool)
-    is_flat = _flat_faces(points, scales, graph)
+    is_flat = _flat_faces(points, scales, graph, slice(None) if measured is None else measured.faces)
     for group in graph.groups:
         result[group.corners[:, is_flat[group.begin : group.end]]] = True
     return result
 
 
 def hardly_moved(
-    offsets: NDArray[np.float32], is_clean: NDArray[np.bool_], is_free: NDArray[np.bool_], rings: RingMeans
+    offsets: NDArray[np.float32],
+    is_clean: NDArray[np.bool_],
+    is_free: NDArray[np.bool_],
+    rings: RingMeans,
+    movable: NDArray[np.bool_] | None = None,
 ) -> NDArray[np.bool_]:
     """Return vertices that a pass hardly moved and that stay therefore, shape (N,).
 
@@ -96,6 +106,8 @@ def hardly_moved(
         Vertices that may move.
     rings : RingMeans
         Rings.
+    movable : ndarray, shape (N,), bool, or None
+        Vertices of which shares are counted; None for all.
     """
     squares = np.square(offsets)
     around = rings.averaged(rings.inward(np.minimum(squares, CUT_OFF**2)[:, None]), NEAR)
@@ -105,18 +117,23 @@ def hardly_moved(
     if not rest.any():
         return still
     strength = np.sqrt(squares[rest].mean(dtype=np.float64))
-    is_mostly_clean = np.count_nonzero(is_clean) > MOSTLY_CLEAN * len(is_clean)
+    n_vertices = len(is_clean)
+    if movable is not None:
+        n_vertices, is_clean = int(np.count_nonzero(movable)), is_clean & movable
+    is_mostly_clean = np.count_nonzero(is_clean) > MOSTLY_CLEAN * n_vertices
     cut = np.sqrt(np.minimum(squares[rest], CUT_OFF**2).mean(dtype=np.float64))
-    limit = HARDLY if np.count_nonzero(rest) > FEW_LEFT * len(rest) else 2 * HARDLY
+    limit = HARDLY if np.count_nonzero(rest) > FEW_LEFT * n_vertices else 2 * HARDLY
     if strength < NO_NOISE or (is_mostly_clean and cut < limit):
         still = still | (squares < WIDE**2)
     return still
 
 
-def _flat_faces(points: NDArray[np.float32], scales: Scales, graph: FaceGraph) -> NDArray[np.bool_]:
+def _flat_faces(
+    points: NDArray[np.float32], scales: Scales, graph: FaceGraph, counted: slice | NDArray[np.bool_]
+) -> NDArray[np.bool_]:
     """Return faces of flat parts, which are connected and in one plane, shape (F,).
 
-    Polygons count as the triangles that they are made of.
+    Polygons count as the triangles that they are made of. Shares are those of the `counted` faces.
     """
     # Whole arrays: `take` would copy all of a strided one for every block.
     normals = np.ascontiguousarray(scales.normals[..., 0])
@@ -143,10 +160,12 @@ def _flat_faces(points: NDArray[np.float32], scales: Scales, graph: FaceGraph) -
     graph.for_pairs(compare)
     graph.for_faces(count)
     pairs = np.flatnonzero(is_pair)
-    part = connected(graph.n_faces, graph.first[pairs], graph.second[pairs])
+    part = linked_groups(graph.n_faces, graph.first[pairs], graph.second[pairs])
     sizes = np.bincount(part, n_triangles, graph.n_faces)
-    is_flat: NDArray[np.bool_] = sizes[part] >= min(FLAT_FACES, max(2.0, FLAT_SHARE * n_triangles.sum()))
-    if n_triangles[is_flat].sum() > MOSTLY_FLAT * n_triangles.sum():
+    is_flat: NDArray[np.bool_] = sizes[part] >= min(
+        FLAT_FACES, max(2.0, FLAT_SHARE * n_triangles[counted].sum())
+    )
+    if (n_triangles * is_flat)[counted].sum() > MOSTLY_FLAT * n_triangles[counted].sum():
         is_flat |= sizes[part] >= 2  # planes are what this mesh is made of, and some are small
     return is_flat
 
@@ -158,6 +177,7 @@ def clean_places(
     unit: NDArray[np.float32],
     rings: RingMeans,
     blocks: Blocks,
+    measured: Measured | None = None,
 ) -> NDArray[np.bool_]:
     """Return vertices in places where two-rings are often clean, shape (N,).
 
@@ -171,12 +191,16 @@ def clean_places(
         Local edge lengths.
     rings : RingMeans
         Rings.
-    blocks : Blocks
-        Threads to work on.
+    measured : Measured, optional
+        Where two-rings are looked at; by default everywhere.
     """
     n_vertices = points.shape[1]
     positions = np.ascontiguousarray(points.T, np.float64)
-    used = np.flatnonzero(~connectivity.is_loose)
+    is_used = ~connectivity.is_loose
+    if measured is not None:
+        is_used &= measured.vertices
+        n_vertices = int(np.count_nonzero(measured.vertices))
+    used = np.flatnonzero(is_used)
     for n_samples in (FEW, MANY):
         centers = spread_sample(positions, used, n_samples)
         adjacency = local_adjacency(surface, connectivity, centers)
@@ -192,8 +216,8 @@ def clean_places(
         parts = blocks.with_block_size(256).run(look, len(centers))
         is_known, is_quiet = (np.concatenate(part) for part in zip(*parts, strict=True))
         if is_quiet.sum() < SOME_CLEAN * max(is_known.sum(), 1):
-            return np.zeros(n_vertices, bool)
-    counts = np.zeros((n_vertices, 2), np.float32)
+            return np.zeros(points.shape[1], bool)
+    counts = np.zeros((points.shape[1], 2), np.float32)
     counts[centers, 0] = is_known
     counts[centers, 1] = is_quiet
     n_averages = int(64 * max(1, n_vertices // len(centers)))

@@ -26,6 +26,7 @@ def unfolded_points(
     graph: FaceGraph,
     rings: RingMeans,
     is_free: NDArray[np.bool_] | None = None,
+    rounds: int = ROUNDS,
 ) -> NDArray[np.float32] | None:
     """Move the vertices of folded faces half-way to their rings until nothing is folded.
 
@@ -41,15 +42,17 @@ def unfolded_points(
         Neighbors of vertices.
     is_free : ndarray, shape (N,), bool, optional
         Vertices that may move; all by default.
+    rounds : int
+        Rounds at most.
 
     Returns
     -------
     ndarray, shape (3, N), float32, or None
-        Positions after at most `ROUNDS` rounds; None if nothing is folded.
+        Positions; None if nothing is folded.
     """
     suspects: list[NDArray[np.intp]] | None = None
     moved: NDArray[np.float32] | None = None
-    for _ in range(ROUNDS):
+    for _ in range(rounds):
         folded = _folded(points if moved is None else moved, normals, graph, suspects)
         vertices = np.unique(
             np.concatenate(

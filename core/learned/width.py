@@ -17,14 +17,25 @@ from numpy.typing import NDArray
 
 ARRAYS = Path(__file__).with_name("width.npz")
 
+CLIP = np.float32(3)
+"""Standardized quantiles are cut off here: squares grow fast where nothing was seen."""
+
 
 def find_wide(quantiles: NDArray[np.float32]) -> NDArray[np.bool_]:
-    """Return which rows of quantiles, shape (n, N_GLOBAL), are of wide noise, shape (n,); see `Features`."""
+    """Return which rows of quantiles, shape (I, N_GLOBAL), are of wide noise, shape (I,); see `Features`."""
     arrays = _load()
-    rows = (quantiles - arrays["mean"]) / arrays["scale"]
-    hidden = np.tanh(rows @ arrays["enter"] + arrays["enter_bias"])
-    result: NDArray[np.bool_] = hidden @ arrays["leave"] > arrays["least"]
+    gain = terms(quantiles, arrays["mean"], arrays["scale"]) @ arrays["weights"]
+    result: NDArray[np.bool_] = gain > 0
     return result
+
+
+def terms(
+    quantiles: NDArray[np.float32], mean: NDArray[np.float32], scale: NDArray[np.float32]
+) -> NDArray[np.float32]:
+    """Return 1, standardized quantiles and their products, shape (I, 153), whose sum is the gain of wide."""
+    rows = np.clip((quantiles - mean) / scale, -CLIP, CLIP)
+    one, two = np.triu_indices(rows.shape[1])
+    return np.concatenate((np.ones_like(rows[:, :1]), rows, rows[:, one] * rows[:, two]), axis=1)
 
 
 @cache

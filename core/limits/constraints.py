@@ -67,26 +67,10 @@ def find_constraints(
 ) -> Constraints:
     """Collect the constraints of a run.
 
-    Parameters
-    ----------
-    surface : SurfaceMesh
-        The noisy surface.
-    connectivity : Connectivity
-        Its neighborhoods.
-    settings : DenoiseSettings
-        With the boundary FIXED, boundary vertices are pinned. With ALONG, the corners of a border may move
-        along their normals only; they are pinned if shrinkage depends on the axes, as what it does to the
-        corner of a tilted plane is not parallel to the plane.
-    movable : ndarray, shape (N,), bool, or None
-        Vertices that may move at all; None for all.
-    dtype : dtype
-        Precision of the rails.
-    corners : Corners, optional
-        What `find_corners` returns, if it is known already.
-
-    Returns
-    -------
-    Constraints
+    With the boundary FIXED, boundary vertices are pinned. With ALONG, the corners of a border may move along
+    their normals only; they are pinned if shrinkage depends on the axes, as what it does to the corner of a
+    tilted plane is not parallel to the plane. `movable`, shape (N,), are the vertices that may move at all,
+    and `corners` what `find_corners` returns, if it is known already.
     """
     is_pinned = connectivity.is_loose.copy()
     if movable is not None:

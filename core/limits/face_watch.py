@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
-from ..mesh.carrier import Carrier
+from ..mesh.carrier import WeldedMesh
 from ..mesh.corner_lists import corners_around, corners_of, face_of, faces_at, some_faces
 from ..mesh.geometry import area_rows, face_tips
 from ..mesh.surface_mesh import SurfaceMesh
@@ -34,7 +34,7 @@ class FaceState(NamedTuple):
 class FaceWatch:
     """Compares the faces of a mesh with those of its input.
 
-    Normals and areas are those of the carrier's surface; which faces are neighbors is what the mesh that was
+    Normals and areas are those of the original surface; which faces are neighbors is what the mesh that was
     worked on says. A face is *folded* if its normal is at more than a right angle both to that of a face
     across one of its edges and to the sum of the normals, weighted by area, of the faces at its vertices.
     Where faces do not agree about their orientation nothing counts as folded.
@@ -43,10 +43,8 @@ class FaceWatch:
 
     Parameters
     ----------
-    carrier : Carrier
+    welded : WeldedMesh
         The meshes.
-    blocks : Blocks
-        Threads to work on.
     before : FaceState, optional
         The faces of the input, if they are known already: what `before` was for the same meshes.
 
@@ -64,16 +62,16 @@ class FaceWatch:
         Faces whose normal had turned by more than a right angle when all faces were looked at last.
     """
 
-    def __init__(self, carrier: Carrier, blocks: Blocks, before: FaceState | None = None) -> None:
-        self.carrier = carrier
+    def __init__(self, welded: WeldedMesh, blocks: Blocks, before: FaceState | None = None) -> None:
+        self.welded = welded
         self._blocks = blocks
-        surface = carrier.surface
+        surface = welded.surface
         # Near the mesh, so that volumes of one far away lose no digits.
         self._origin = surface.vertices[surface.corner_vertex[:1]].astype(np.float64).mean(axis=0)
         self._points = np.empty((3, surface.n_vertices))
         self.before = self._state(surface.vertices) if before is None else before
         self.areas, self.volume, self.is_folded, self.is_degenerate = self.before
-        self._is_over = np.zeros(carrier.topology.n_faces, bool)
+        self._is_over = np.zeros(welded.topology.n_faces, bool)
         self.n_turned = 0
 
     @property
@@ -117,9 +115,9 @@ class FaceWatch:
         changed : ndarray, shape (n,), bool
             The changed vertices of the mesh that was worked on.
         """
-        carrier, topology = self.carrier, self.carrier.topology
-        moved = np.flatnonzero(changed if carrier.vertex is None else changed[carrier.vertex])
-        self._points[:, moved] = (vertices[moved].T - self._origin[:, None]) / self.carrier.edge
+        welded, topology = self.welded, self.welded.topology
+        moved = np.flatnonzero(changed if welded.vertex is None else changed[welded.vertex])
+        self._points[:, moved] = (vertices[moved].T - self._origin[:, None]) / self.welded.edge
         faces = faces_at(topology, changed)
         areas = self._areas_of(faces)
         self.areas[:, faces] = areas
@@ -133,7 +131,7 @@ class FaceWatch:
 
     def _state(self, vertices: NDArray[np.floating]) -> FaceState:
         """Return the faces at some positions, and keep those."""
-        surface, face = self.carrier.surface, self.carrier.face
+        surface, face = self.welded.surface, self.welded.face
         areas = np.empty((3, surface.n_faces), surface.vertices.dtype)
         is_degenerate = np.empty(surface.n_faces, bool)
         volume = self._measure(vertices, areas, is_degenerate)
@@ -148,13 +146,13 @@ class FaceWatch:
         is_degenerate: NDArray[np.bool_] | None = None,
     ) -> float:
         """Return the volume at some positions, and keep those; fill the areas and flags of all faces."""
-        surface, points = self.carrier.surface, self._points
+        surface, points = self.welded.surface, self._points
 
         def move(start: int, stop: int) -> None:
             part = points[:, start:stop]
             part[:] = vertices[start:stop].T
             part -= self._origin[:, None]
-            part /= self.carrier.edge
+            part /= self.welded.edge
 
         def kernel(start: int, stop: int) -> float:
             part = area_rows(points, surface, start, stop)
@@ -169,8 +167,8 @@ class FaceWatch:
 
     def _areas_of(self, faces: NDArray[np.intp]) -> NDArray[np.float64]:
         """Return the vector areas of some faces of the mesh that was worked on, shape (3, n)."""
-        own = faces if self.carrier.face is None else self.carrier.face[faces]
-        part: SurfaceMesh = some_faces(self.carrier.surface, own)
+        own = faces if self.welded.face is None else self.welded.face[faces]
+        part: SurfaceMesh = some_faces(self.welded.surface, own)
         return area_rows(self._points, part, 0, part.n_faces)
 
     def _turned(self, start: int, stop: int) -> NDArray[np.intp]:
@@ -180,10 +178,10 @@ class FaceWatch:
 
     def _counts_as_over(self, faces: NDArray[np.intp]) -> NDArray[np.bool_]:
         """Return which of some faces count as turned over if their normals have turned, shape (n,), bool."""
-        connectivity = self.carrier.connectivity
+        connectivity = self.welded.connectivity
         if not connectivity.is_oriented:
             return np.ones(len(faces), bool)
-        counts, corner = corners_of(self.carrier.topology, faces)
+        counts, corner = corners_of(self.welded.topology, faces)
         own = np.repeat(np.arange(len(faces)), counts)
         return np.bincount(own, connectivity.face_across[corner] >= 0, len(faces)) == 0.0
 
@@ -192,9 +190,9 @@ class FaceWatch:
     ) -> NDArray[np.bool_]:
         """Return which of some faces, by default of all, are folded, shape (n,), bool."""
         n_faces = areas.shape[1] if faces is None else len(faces)
-        if not self.carrier.connectivity.is_oriented:
+        if not self.welded.connectivity.is_oriented:
             return np.zeros(n_faces, bool)
-        size = self.carrier.topology.common_face_size()
+        size = self.welded.topology.common_face_size()
 
         def kernel(start: int, stop: int) -> NDArray[np.bool_]:
             if faces is None and size:
@@ -217,7 +215,7 @@ class FaceWatch:
         self, areas: NDArray[np.floating], start: int, stop: int, size: int
     ) -> NDArray[np.bool_]:
         """Do what `_disagrees` does for the faces start to stop, all of them with `size` corners."""
-        across = self.carrier.connectivity.face_across[size * start : size * stop].reshape(-1, size)
+        across = self.welded.connectivity.face_across[size * start : size * stop].reshape(-1, size)
         own, result = areas[:, start:stop], np.zeros(stop - start, bool)
         for corner in range(size):
             other = np.ascontiguousarray(across[:, corner], np.intp)
@@ -226,8 +224,8 @@ class FaceWatch:
 
     def _disagrees(self, areas: NDArray[np.floating], faces: NDArray[np.intp]) -> NDArray[np.bool_]:
         """Return which of some faces are at more than a right angle to one across an edge, shape (n,)."""
-        counts, corner = corners_of(self.carrier.topology, faces)
-        other = self.carrier.connectivity.face_across[corner]
+        counts, corner = corners_of(self.welded.topology, faces)
+        other = self.welded.connectivity.face_across[corner]
         own = np.repeat(np.arange(len(faces)), counts)
         mine = areas.take(faces, axis=1)
         cosine = dots(mine.take(own, axis=1), areas.take(other, axis=1, mode="clip"))
@@ -237,13 +235,13 @@ class FaceWatch:
 
     def _around(self, areas: NDArray[np.floating], faces: NDArray[np.intp]) -> NDArray[np.float64]:
         """Return the sums of the vector areas around the corners of some faces, shape (3, n)."""
-        topology = self.carrier.topology
+        topology = self.welded.topology
         counts, corner = corners_of(topology, faces)
         wanted = topology.corner_vertex[corner]
         vertices = np.unique(wanted).astype(np.intp)
         number = np.empty(topology.n_vertices, np.int32)  # of the others nobody asks
         number[vertices] = np.arange(len(vertices), dtype=np.int32)
-        near = corners_around(topology, self.carrier.connectivity, vertices)
+        near = corners_around(topology, self.welded.connectivity, vertices)
         place, face = number[topology.corner_vertex[near]], face_of(topology, near)
         own = np.repeat(np.arange(len(faces)), counts)
         sums = [np.bincount(place, row[face], len(vertices)) for row in areas]

@@ -15,12 +15,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
-from ..mesh.carrier import Carrier
+from ..mesh.carrier import WeldedMesh
 from .constraints import Constraints
 from .face_watch import FaceState, FaceWatch
 from .folds import damp_until_valid
 from .motion import Motion
-from .placed import Placed
+from .placed import ResolvedRegion
 from .region import Region
 from .volume import volume_offset
 
@@ -29,7 +29,7 @@ VOLUME_ROUNDS = 8
 
 
 class Finished(NamedTuple):
-    """Positions of the carrier's surface, shape (N, 3), its faces as they are now, and damped vertices."""
+    """Positions of the original surface, shape (N, 3), its faces as they are now, and damped vertices."""
 
     vertices: NDArray[np.floating]
     watch: FaceWatch
@@ -38,8 +38,8 @@ class Finished(NamedTuple):
 
 def finish(
     found: NDArray[np.float64],
-    carrier: Carrier,
-    placed: Placed,
+    welded: WeldedMesh,
+    resolved: ResolvedRegion,
     region: Region,
     constraints: Constraints,
     blocks: Blocks,
@@ -51,34 +51,28 @@ def finish(
     ----------
     found : ndarray, shape (3, n), float64
         Displacements of the vertices of the mesh that was worked on, in scene units; changed.
-    carrier : Carrier
+    welded : WeldedMesh
         That mesh, and the one that moves.
-    placed : Placed
+    resolved : ResolvedRegion
         What the region says about its vertices.
     region : Region
         The limits.
     constraints : Constraints
         Vertices that are pinned take no part in the offset for the volume.
-    blocks : Blocks
-        Threads to work on.
     known : list of FaceState
         The faces of the input, if they are known already, see `FaceWatch`; afterwards they are.
-
-    Returns
-    -------
-    Finished
     """
-    motion = Motion(found, carrier, region, placed.movable, placed.weights, constraints.pinned)
-    watch = FaceWatch(carrier, blocks, known[0] if known else None)
+    motion = Motion(found, welded, region, resolved.movable, resolved.weights, constraints.pinned)
+    watch = FaceWatch(welded, blocks, known[0] if known else None)
     known[:] = [watch.before]
     shares = np.ones(found.shape[1])
     vertices = _settled(motion.at(), shares, watch, region, blocks)
-    if not (region.keep_volume and carrier.connectivity.is_closed):
+    if not (region.keep_volume and welded.connectivity.is_closed):
         return Finished(vertices, watch, _n_damped(motion.at(), shares))
     area = watch.area_before * motion.allow_offset(shares)
 
     def volume_at(offset: float) -> float:
-        return watch.volume_at(carrier.moved(motion.at(offset) * shares, blocks))
+        return watch.volume_at(welded.moved(motion.at(offset) * shares, blocks))
 
     offset = 0.0
     for _ in range(VOLUME_ROUNDS):
@@ -100,7 +94,7 @@ def _settled(
     """Return the positions after a displacement, with folds taken back if that is wanted."""
     if region.repair_folds:
         return damp_until_valid(watch, displacement, shares, blocks)
-    vertices = watch.carrier.moved(displacement, blocks)
+    vertices = watch.welded.moved(displacement, blocks)
     watch.look(vertices)
     return vertices
 

@@ -39,13 +39,11 @@ def damp_until_valid(
         Of the vertices of the mesh that was worked on, in scene units.
     shares : ndarray, shape (n,)
         Share of its displacement that each vertex makes, from 1 to 0; changed in place.
-    blocks : Blocks
-        Threads to work on.
 
     Returns
     -------
     ndarray, shape (N, 3)
-        Positions of the carrier's surface.
+        Positions of the original surface.
 
     Notes
     -----
@@ -53,10 +51,10 @@ def damp_until_valid(
     are 0 already the vertices of the faces around follow. A face none of whose neighbors has moved is as it
     was in the input, so that this comes to an end.
     """
-    carrier = watch.carrier
-    topology = carrier.topology
+    welded = watch.welded
+    topology = welded.topology
     is_whole = bool((shares == 1.0).all())
-    vertices = carrier.moved(displacement if is_whole else displacement * shares, blocks)
+    vertices = welded.moved(displacement if is_whole else displacement * shares, blocks)
     watch.look(vertices)
     least = 0.5**HALVINGS
     for round_ in range(LAST_ROUND):
@@ -74,17 +72,17 @@ def damp_until_valid(
         halved = 0.5 * shares[changed]
         halved[(halved < least) | (round_ > PATIENCE)] = 0.0
         shares[changed] = halved
-        vertices = carrier.moved(displacement * shares, blocks)
+        vertices = welded.moved(displacement * shares, blocks)
         watch.look_around(vertices, changed)
     shares[:] = 0.0
-    vertices = carrier.surface.vertices.copy()
+    vertices = welded.surface.vertices.copy()
     watch.look(vertices)
     return vertices
 
 
 def _vertices_of(watch: FaceWatch, faces: NDArray[np.intp]) -> NDArray[np.bool_]:
     """Return a mask of the vertices of some faces, shape (n,)."""
-    topology = watch.carrier.topology
+    topology = watch.welded.topology
     result = np.zeros(topology.n_vertices, bool)
     result[topology.corner_vertex[corners_of(topology, faces)[1]]] = True
     return result
@@ -92,7 +90,7 @@ def _vertices_of(watch: FaceWatch, faces: NDArray[np.intp]) -> NDArray[np.bool_]
 
 def _any_moves(watch: FaceWatch, faces: NDArray[np.intp], shares: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Return which of some faces have a vertex with a share above 0."""
-    topology = watch.carrier.topology
+    topology = watch.welded.topology
     counts, corner = corners_of(topology, faces)
     own = np.repeat(np.arange(len(faces)), counts)
     return np.bincount(own, shares[topology.corner_vertex[corner]], len(faces)) > 0.0

@@ -59,10 +59,6 @@ def find_lines(
         Feature edges; those that occur twice count once, those of a vertex with itself do not count.
     pinned : ndarray, shape (p,), int
         Vertices that may not move.
-
-    Returns
-    -------
-    FeatureLines
     """
     ends = np.sort(edges[edges[:, 0] != edges[:, 1]].astype(np.int64), axis=1)
     ends = np.unique(ends, axis=0)
@@ -95,28 +91,46 @@ def smoothing_of(points: NDArray[np.floating], lines: FeatureLines, strength: fl
     ndarray, shape (3, l), float64
         In the unit of the positions; zero where the lines have no noise.
     """
-    inner, (before, after) = lines.inner, lines.neighbors.T
+    inner = lines.inner
     noise = line_noise(points, lines)
     if not len(inner) or noise == 0.0 or strength == 0.0:
         return np.zeros((3, len(inner)))
-    start = points.astype(np.float64)
-    # Vertices that stay have nothing of the rest, which then is 0 at both ends of a line.
-    rest = start.copy()
-    for round_ in range(LOW_PASS_ROUNDS):
-        smooth = rest.copy()
-        for _ in range(LOW_PASS_STEPS):
-            smooth[:, inner] = 0.5 * smooth[:, inner] + 0.25 * (smooth[:, before] + smooth[:, after])
-        rest -= smooth
-        if round_ == 0:
-            stays = np.ones(rest.shape[1], bool)
-            stays[inner] = False
-            rest[:, stays] = 0.0
+    # On all vertices of the lines; those that stay are their own neighbors.
+    rank = np.full(points.shape[1], -1)
+    rank[lines.vertices] = own = np.arange(len(lines.vertices))
+    before, after = own.copy(), own.copy()
+    moving = rank[inner]
+    before[moving], after[moving] = rank[lines.neighbors].T
+    start = points[:, lines.vertices].astype(np.float64)
+    rest = high_pass(start, before, after, LOW_PASS_STEPS, LOW_PASS_ROUNDS)
     smooth = start - rest
+    rest, before, after = rest[:, moving], before[moving], after[moving]
     along = smooth[:, after] - smooth[:, before]
-    motion = -_across(rest[:, inner], along)
+    motion = -_across(rest, along)
     length = np.sqrt(np.einsum("cl,cl->l", motion, motion))
     limit = LARGEST_MOTION * strength * noise
     return motion * np.divide(limit, length, out=np.ones_like(length), where=length > limit)
+
+
+def high_pass(
+    points: NDArray[np.float64],
+    before: NDArray[np.integer],
+    after: NDArray[np.integer],
+    steps: int,
+    rounds: int,
+) -> NDArray[np.float64]:
+    """Return what the low-pass 1 - (1 - A^k)^m takes away from points of curves, shape (3, n).
+
+    `before` and `after`, shape (n,), are the neighbors of each point on its curve, and itself where it stays;
+    A is the mean of a point and of its two neighbors, k and m are `steps` and `rounds`.
+    """
+    rest = points
+    for _ in range(rounds):
+        smooth = rest
+        for _ in range(steps):
+            smooth = 0.5 * smooth + 0.25 * (smooth[:, before] + smooth[:, after])
+        rest = rest - smooth
+    return rest
 
 
 def line_noise(points: NDArray[np.floating], lines: FeatureLines) -> float:
@@ -167,8 +181,8 @@ def _corners(
             last, here = np.where(place < 0, last, here), np.where(place < 0, here, following)
         reached.append(here)
     center = points[:, inner].astype(np.float64)
-    turn = _turn(center - points[:, neighbors[:, 0]], points[:, neighbors[:, 1]] - center)
-    wide = _turn(center - points[:, reached[0]], points[:, reached[1]] - center)
+    turn = turning_angles(center - points[:, neighbors[:, 0]], points[:, neighbors[:, 1]] - center)
+    wide = turning_angles(center - points[:, reached[0]], points[:, reached[1]] - center)
     at_vertex = np.zeros(n_vertices)
     at_vertex[inner] = turn
     is_corner = (wide > np.radians(CORNER_TURN)) & (turn > CORNER_SHARE * wide)
@@ -178,7 +192,7 @@ def _corners(
     return mask
 
 
-def _turn(arriving: NDArray[np.float64], leaving: NDArray[np.float64]) -> NDArray[np.float64]:
+def turning_angles(arriving: NDArray[np.float64], leaving: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the angles between vectors, shape (l,), in radians; 0 where one of them is zero."""
     scale = np.sqrt((arriving * arriving).sum(axis=0) * (leaving * leaving).sum(axis=0))
     cosine = np.divide((arriving * leaving).sum(axis=0), scale, out=np.ones_like(scale), where=scale > 0.0)

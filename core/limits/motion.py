@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.carrier import Carrier
+from ..mesh.carrier import WeldedMesh
 from ..mesh.geometry import vertex_normals
 from .region import Region
 from .seam import fade_shift_in, faded_in, rings_beside
@@ -20,7 +20,7 @@ class Motion:
     ----------
     found : ndarray, shape (3, n), float64
         Displacements that a method found, in the unit of the mesh; kept and changed.
-    carrier : Carrier
+    welded : WeldedMesh
         The mesh that it worked on.
     region : Region
         Largest displacement, direction, volume.
@@ -35,15 +35,15 @@ class Motion:
     def __init__(
         self,
         found: NDArray[np.float64],
-        carrier: Carrier,
+        welded: WeldedMesh,
         region: Region,
         movable: NDArray[np.bool_] | None,
         weights: NDArray[np.floating] | None,
         pinned: NDArray[np.intp],
     ) -> None:
-        surface = carrier.topology
+        surface = welded.topology
         self._found = found
-        self._edge = carrier.edge
+        self._edge = welded.edge
         self._surface = surface
         self._limit = region.max_displacement
         self._weights, self._pinned = weights, pinned

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import RegionError
-from ..mesh.carrier import Carrier
+from ..mesh.carrier import WeldedMesh
 from ..mesh.checks import check_positions
 from ..mesh.connectivity import Connectivity
 from ..mesh.locality import Reordering
@@ -20,7 +20,7 @@ from .region import Region
 
 
 @dataclass(frozen=True, eq=False)
-class Placed:
+class ResolvedRegion:
     """What a region says about the vertices of the mesh that is worked on.
 
     Attributes
@@ -41,6 +41,8 @@ class Placed:
         Other numbers of `surface`, by which the arrays above go.
     straighten_borders : bool
         Whether borders become smooth curves.
+    flatten_spikes : bool
+        Whether spikes come down first.
     """
 
     original: SurfaceMesh
@@ -51,8 +53,9 @@ class Placed:
     feature_edges: NDArray[np.integer] | None
     reordering: Reordering | None = None
     straighten_borders: bool = False
+    flatten_spikes: bool = False
 
-    def renumbered(self, reordering: Reordering | None) -> Placed:
+    def renumbered(self, reordering: Reordering | None) -> ResolvedRegion:
         """Return the same with the numbers of a reordering of `surface`, if there is one."""
         if reordering is None:
             return self
@@ -66,7 +69,7 @@ class Placed:
             reordering=reordering,
         )
 
-    def carrier(self, connectivity: Connectivity, edge: float) -> Carrier:
+    def welded_mesh(self, connectivity: Connectivity, edge: float) -> WeldedMesh:
         """Return the mesh that moves over the mesh that is worked on, in the numbering of the latter.
 
         Parameters
@@ -78,25 +81,25 @@ class Placed:
 
         Returns
         -------
-        Carrier
+        WeldedMesh
             A welded mesh carries the original in its own numbering, any other one itself.
         """
         topology = self.surface if self.reordering is None else self.reordering.surface
         if self.weld is None:
-            return Carrier(topology, topology, connectivity, edge)
+            return WeldedMesh(topology, topology, connectivity, edge)
         vertex, face = self.weld.vertex, self.weld.face
         if self.reordering is not None:
             vertex, face = _new_numbers(self.reordering)[vertex], face[self.reordering.face_order]
-        return Carrier(self.original, topology, connectivity, edge, vertex, face)
+        return WeldedMesh(self.original, topology, connectivity, edge, vertex, face)
 
     def in_given_order(self, vertices: NDArray[np.floating]) -> NDArray[np.floating]:
-        """Return positions of the carrier's surface, shape (N, 3), in the numbering of the original."""
+        """Return positions of the original surface, shape (N, 3), in the numbering of the original."""
         if self.weld is not None or self.reordering is None:
             return vertices
         return self.reordering.vertices_back(vertices)
 
 
-def place(region: Region, surface: SurfaceMesh, movable: NDArray[np.bool_] | None) -> Placed:
+def resolve(region: Region, surface: SurfaceMesh, movable: NDArray[np.bool_] | None) -> ResolvedRegion:
     """Find out what a region means for a mesh.
 
     Parameters
@@ -110,7 +113,7 @@ def place(region: Region, surface: SurfaceMesh, movable: NDArray[np.bool_] | Non
 
     Returns
     -------
-    Placed
+    ResolvedRegion
         Vertices with weight 0 are not movable. A welded vertex may move as far as the one of its parts that
         may move least.
 
@@ -145,12 +148,21 @@ def place(region: Region, surface: SurfaceMesh, movable: NDArray[np.bool_] | Non
         movable = None if movable is None else weld.least(movable)
         weights = None if weights is None else weld.least(weights)
         edges = None if edges is None else weld.vertex[edges]
+    if movable is not None and movable.all():
+        movable = None
     if movable is not None and not movable.any():
         raise RegionError(
             "No vertex may move: those that are selected have weight 0, or lie on others that may not move."
         )
-    return Placed(
-        surface, worked, weld, movable, weights, edges, straighten_borders=region.straighten_borders
+    return ResolvedRegion(
+        surface,
+        worked,
+        weld,
+        movable,
+        weights,
+        edges,
+        straighten_borders=region.straighten_borders,
+        flatten_spikes=region.flatten_spikes,
     )
 
 

@@ -40,6 +40,9 @@ class Region:
         Whether motions that fold faces are taken back.
     straighten_borders : bool
         Whether frayed and zigzag borders become smooth, see `straight_borders.py`.
+    flatten_spikes : bool
+        Whether single vertices and small clusters far off their surroundings, see `mesh.spikes`, come down to
+        them first. Learned shrinkage brings them down by itself; the other methods take them for shape.
 
     Raises
     ------
@@ -56,6 +59,7 @@ class Region:
     weldable: NDArray[np.bool_] | None = None
     repair_folds: bool = True
     straighten_borders: bool = False
+    flatten_spikes: bool = False
 
     def __post_init__(self) -> None:
         if self.weights is not None:

@@ -15,6 +15,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from .lines import high_pass, turning_angles
+
 ROUNDS = 3
 NARROW = 8
 WIDER = (32, 128, 512)
@@ -68,10 +70,6 @@ def find_curves(boundary_neighbors: NDArray[np.integer]) -> BorderCurves:
     ----------
     boundary_neighbors : ndarray, shape (N, 2), int
         Neighbors of manifold border vertices along the border, one before and one after, else -1.
-
-    Returns
-    -------
-    BorderCurves
 
     Examples
     --------
@@ -174,7 +172,7 @@ def _with_corners(start: NDArray[np.float64], curves: BorderCurves, reach: NDArr
         sides.append((mean, slope, mean - middle * slope))
     (before, _, meeting_before), (after, _, meeting_after) = sides
     meeting = 0.5 * (meeting_before + meeting_after)
-    turn = _turn(meeting - before, after - meeting)
+    turn = turning_angles(meeting - before, after - meeting)
     on_circle = 2.0 * np.pi * (reach + 1) / np.bincount(curves.curve)[curves.curve]
     least = np.maximum(np.radians(CORNER_TURN), np.radians(CORNER_EXCESS) + on_circle)
     is_corner = (turn > least) & (reach > 0)
@@ -195,25 +193,11 @@ def _with_corners(start: NDArray[np.float64], curves: BorderCurves, reach: NDArr
 
 
 def _low_pass(points: NDArray[np.float64], curves: BorderCurves, steps: int) -> NDArray[np.float64]:
-    """Return the points after 1 - (1 - A^k)^m with k `steps` and m `ROUNDS`; ends of curves stay."""
-    before, after = curves.before, curves.after
-    rest = points
-    for _ in range(ROUNDS):
-        smooth = rest
-        for _ in range(steps):
-            smooth = 0.5 * smooth + 0.25 * (smooth[:, before] + smooth[:, after])
-        rest = rest - smooth
-    return points - rest
+    """Return the points after the low-pass of `lines` with `ROUNDS`; ends of curves stay."""
+    return points - high_pass(points, curves.before, curves.after, steps, ROUNDS)
 
 
 def _rms_of_curves(vectors: NDArray[np.float64], curves: BorderCurves) -> NDArray[np.float64]:
     """Return the root mean square of vectors, shape (3, b), of each curve."""
     squares = np.bincount(curves.curve, np.einsum("cb,cb->b", vectors, vectors))
     return np.sqrt(squares / np.bincount(curves.curve))
-
-
-def _turn(arriving: NDArray[np.float64], leaving: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the angles between vectors, shape (3, b), in radians; 0 where one of them is zero."""
-    scale = np.sqrt((arriving * arriving).sum(axis=0) * (leaving * leaving).sum(axis=0))
-    cosine = np.divide((arriving * leaving).sum(axis=0), scale, out=np.ones_like(scale), where=scale > 0.0)
-    return np.arccos(np.clip(cosine, -1.0, 1.0))

@@ -11,11 +11,12 @@ from numpy.typing import NDArray
 
 from ..blocks import Blocks
 from .connectivity import Connectivity
+from .normalization import displaced
 from .surface_mesh import SurfaceMesh
 
 
 @dataclass(frozen=True, eq=False)
-class Carrier:
+class WeldedMesh:
     """Two meshes that lie over each other: the one that moves, and the one that was worked on.
 
     Attributes
@@ -42,29 +43,5 @@ class Carrier:
     face: NDArray[np.integer] | None = None
 
     def moved(self, displacement: NDArray[np.float64], blocks: Blocks | None = None) -> NDArray[np.floating]:
-        """Return the positions of `surface` after a displacement of `topology`.
-
-        Parameters
-        ----------
-        displacement : ndarray, shape (3, n)
-            For each vertex of `topology`, in scene units.
-        blocks : Blocks, optional
-            Threads to work on.
-
-        Returns
-        -------
-        ndarray, shape (N, 3)
-            In the dtype of the surface. Coordinates that are not displaced keep their bits, the sign of a
-            zero included.
-        """
-        vertices = self.surface.vertices
-        result = np.empty_like(vertices)
-
-        def kernel(start: int, stop: int) -> None:
-            part = slice(start, stop)
-            step = displacement[:, part] if self.vertex is None else displacement[:, self.vertex[part]]
-            moved = (vertices[part] + step.T).astype(vertices.dtype)
-            result[part] = np.where(step.T != 0, moved, vertices[part])
-
-        (blocks or Blocks(1)).run(kernel, len(vertices))
-        return result
+        """Return the positions of `surface`, shape (N, 3), after a displacement of `topology`, (3, n)."""
+        return displaced(self.surface.vertices, displacement, self.vertex, blocks)

@@ -101,10 +101,6 @@ class Connectivity:
         """Return the indices of edges without a face."""
         return np.flatnonzero(self.edge_face_count == 0)
 
-    def non_manifold_edges(self) -> NDArray[np.intp]:
-        """Return the indices of edges with three or more faces."""
-        return np.flatnonzero(self.edge_face_count > 2)
-
     def ring_of(self, vertex: int) -> NDArray[np.int32]:
         """Return the one-ring of a vertex."""
         return self.ring[self.ring_offset[vertex] : self.ring_offset[vertex + 1]]
@@ -119,15 +115,9 @@ def connect(
     ----------
     surface : SurfaceMesh
         Any polygon mesh; not modified. Positions are not looked at.
-    blocks : Blocks, optional
-        Threads to work on.
     labels : ndarray, shape (N,), int32, optional
         Different numbers of the vertices by which equals are told apart, instead of their own numbers: those
         of a mesh before it was renumbered.
-
-    Returns
-    -------
-    Connectivity
     """
     blocks = blocks or Blocks(1)
     half_edges = find_half_edges(surface, blocks)

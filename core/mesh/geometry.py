@@ -6,21 +6,24 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import DTypeLike, NDArray
 
 from ..blocks import Blocks
 from .ragged import stretches
 from .surface_mesh import SurfaceMesh
 
 
-def coordinate_rows(vertices: NDArray[np.floating], blocks: Blocks | None = None) -> NDArray[np.float64]:
-    """Return a copy of positions, shape (N, 3), with coordinates in rows, shape (3, N), float64.
+def coordinate_rows(
+    vertices: NDArray[np.floating], blocks: Blocks | None = None, dtype: DTypeLike = np.float64
+) -> NDArray[Any]:
+    """Return a copy of positions, shape (N, 3), with coordinates in rows, shape (3, N), of a dtype.
 
     `blocks` are threads to work on.
     """
-    rows = np.empty((3, len(vertices)))
+    rows = np.empty((3, len(vertices)), dtype)
 
     def kernel(start: int, stop: int) -> None:
         rows[:, start:stop] = vertices[start:stop].T
@@ -180,27 +183,6 @@ def vertex_normals(surface: SurfaceMesh) -> NDArray[np.float64]:
         for axis in range(3)
     ]
     return unit_vectors(np.stack(sums, axis=1).astype(np.float64, copy=False))
-
-
-def signed_volume(surface: SurfaceMesh, area_vectors: NDArray[np.float64] | None = None) -> float:
-    """Return the enclosed volume, in cubed scene units, of a closed and consistently oriented mesh.
-
-    Faces with more than three corners count as fans around the mean of their corners. `area_vectors` are
-    those of `face_area_vectors`, if they are known already.
-    """
-    if not surface.n_faces:
-        return 0.0
-    vectors = face_area_vectors(surface) if area_vectors is None else area_vectors
-    sizes = surface.face_sizes()
-    filled = np.flatnonzero(sizes > 0)
-    # For a triangle every point of its plane does as well as the mean; the first corner costs least.
-    tip = surface.vertices[surface.corner_vertex[surface.face_offset[:-1][filled]]].astype(np.float64)
-    for size in np.unique(sizes[sizes > 3]):
-        faces = sizes[filled] == size
-        corner = surface.face_offset[:-1][filled[faces], None] + np.arange(size)
-        tip[faces] = surface.vertices[surface.corner_vertex[corner]].mean(axis=1, dtype=np.float64)
-    tip -= tip.mean(axis=0)  # near the origin, so that a mesh far away loses no digits
-    return float(np.einsum("fi,fi->", tip, vectors[filled]) / 3.0)
 
 
 def face_tips(

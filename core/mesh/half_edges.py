@@ -59,19 +59,10 @@ class HalfEdges:
 def find_half_edges(surface: SurfaceMesh, blocks: Blocks | None = None) -> HalfEdges:
     """Pair the half-edges of a mesh.
 
-    It takes no sorting: all corners write their numbers to their edge, once in ascending and once in
-    descending order, so that the last and the first one stand there.
-
     Parameters
     ----------
     surface : SurfaceMesh
         Any polygon mesh; not modified.
-    blocks : Blocks, optional
-        Threads to work on.
-
-    Returns
-    -------
-    HalfEdges
     """
     blocks = blocks or Blocks(1)
     n_corners = surface.n_corners
@@ -150,12 +141,10 @@ def shifted(values: NDArray[np.int32], surface: SurfaceMesh, step: int, blocks: 
         The mesh.
     step : {1, -1}
         Next or previous.
-    blocks : Blocks
-        Threads to work on.
     """
-    result = np.empty_like(values)
     size = surface.common_face_size()
     if size:
+        result = np.empty_like(values)
         source, target = values.reshape(-1, size), result.reshape(-1, size)
 
         def turn(start: int, stop: int) -> None:
@@ -164,8 +153,4 @@ def shifted(values: NDArray[np.int32], surface: SurfaceMesh, step: int, blocks: 
 
         blocks.run(turn, surface.n_faces)
         return result
-    corner = surface.next_corner() if step > 0 else surface.previous_corner()
-    blocks.run(
-        lambda start, stop: values.take(corner[start:stop], out=result[start:stop], mode="clip"), len(corner)
-    )
-    return result
+    return blocks.take(values, surface.next_corner() if step > 0 else surface.previous_corner())

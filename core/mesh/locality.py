@@ -25,7 +25,6 @@ WINDOW = 192
 
 _WINDOWS = 256
 _NEAR = 64  # vertices on one page of the look-up
-_ITEMS_AT_ONCE = 2**16
 _CURVE_BITS = 10  # for each coordinate; three of them fit into 32 bits
 
 
@@ -60,13 +59,14 @@ class Reordering:
         return result
 
 
-def is_scattered(surface: SurfaceMesh) -> bool:
+def is_scattered(surface: SurfaceMesh, smallest: int = SMALLEST) -> bool:
     """Tell whether renumbering a mesh pays: it is large, and neighbors have far-off numbers.
 
     Of windows of consecutive corners, spread over the mesh, it counts how many pages of vertices they touch.
-    A few streams of vertices side by side, as subdivision leaves them, are not scattered.
+    A few streams of vertices side by side, as subdivision leaves them, are not scattered. Meshes with fewer
+    vertices than `smallest` stay in the caches in any order.
     """
-    if surface.n_vertices < SMALLEST or surface.n_corners < WINDOW:
+    if surface.n_vertices < smallest or surface.n_corners < WINDOW:
         return False
     start = np.linspace(0, surface.n_corners - WINDOW, _WINDOWS).astype(np.int64)
     pages = np.sort(surface.corner_vertex[start[:, None] + np.arange(WINDOW)] // _NEAR, axis=1)
@@ -130,19 +130,13 @@ def reorder(
         Any mesh; not modified.
     vertex_order : ndarray, shape (N,), int
         The vertices in their new order, each once; from `spatial_order`, say.
-    blocks : Blocks, optional
-        Threads to work on.
-
-    Returns
-    -------
-    Reordering
     """
-    blocks = (blocks or Blocks(1)).with_block_size(_ITEMS_AT_ONCE)
+    blocks = blocks or Blocks(1)
     n_vertices = surface.n_vertices
     old_number = np.asarray(vertex_order, np.int32)
     new_number = _inverse(old_number, blocks)
-    corner_vertex = _taken(new_number, surface.corner_vertex, blocks)
-    edges = _taken(new_number, surface.edges.reshape(-1), blocks).reshape(-1, 2)
+    corner_vertex = blocks.take(new_number, surface.corner_vertex)
+    edges = blocks.take(new_number, surface.edges.reshape(-1)).reshape(-1, 2)
 
     sizes = surface.face_sizes()
     filled = np.minimum(surface.face_offset[:-1], max(surface.n_corners - 1, 0))
@@ -155,7 +149,6 @@ def reorder(
         offset = np.concatenate(([0], np.cumsum(sizes[face_order]))).astype(np.int32)
     new_edge = _inverse(edge_order, blocks)
     moved_vertex, moved_edge = np.empty_like(corner_vertex), np.empty_like(corner_vertex)
-    moved_edges = np.empty_like(edges)
 
     def move(start: int, stop: int) -> None:
         faces = face_order[start:stop]
@@ -171,17 +164,13 @@ def reorder(
         corner_vertex.take(corner, out=moved_vertex[part], mode="clip")
         new_edge.take(surface.corner_edge[corner], out=moved_edge[part], mode="clip")
 
-    def move_edges(start: int, stop: int) -> None:
-        edges.take(edge_order[start:stop], axis=0, out=moved_edges[start:stop], mode="clip")
-
     blocks.run(move, surface.n_faces)
-    blocks.run(move_edges, len(edges))
     renumbered = SurfaceMesh.trusted(
         vertices=surface.vertices.take(old_number, axis=0),
         corner_vertex=moved_vertex,
         corner_edge=moved_edge,
         face_offset=offset,
-        edges=moved_edges,
+        edges=blocks.take(edges, edge_order),
     )
     return Reordering(renumbered, old_number, face_order)
 
@@ -195,15 +184,6 @@ def _inverse(order: NDArray[np.int32], blocks: Blocks) -> NDArray[np.int32]:
 
     blocks.run(write, len(order))
     return number
-
-
-def _taken(values: NDArray[np.int32], index: NDArray[np.int32], blocks: Blocks) -> NDArray[np.int32]:
-    """Return `values[index]`, shape (n,), looked up on threads."""
-    result = np.empty(len(index), np.int32)
-    blocks.run(
-        lambda start, stop: values.take(index[start:stop], out=result[start:stop], mode="clip"), len(index)
-    )
-    return result
 
 
 def _coarse_order(vertices: NDArray[np.int32], n_vertices: int) -> NDArray[np.int32]:

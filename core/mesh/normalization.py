@@ -25,8 +25,6 @@ def normalize(
         Its neighborhoods.
     edge : float
         Mean edge length.
-    blocks : Blocks, optional
-        Threads to work on.
 
     Returns
     -------
@@ -61,23 +59,20 @@ def normalize(
 
 def displaced(
     vertices: NDArray[np.floating],
-    points: NDArray[np.floating],
-    origin: NDArray[np.floating],
-    edge: float,
+    displacement: NDArray[np.float64],
+    vertex: NDArray[np.integer] | None = None,
     blocks: Blocks | None = None,
 ) -> NDArray[np.floating]:
-    """Return vertices moved as points of normalized space have moved.
+    """Return positions after a displacement.
 
     Parameters
     ----------
     vertices : ndarray, shape (N, 3)
         Positions in scene units; not modified.
-    points, origin : ndarray, shape (3, N)
-        Where the points are, and where they were, in mean edge lengths.
-    edge : float
-        Mean edge length.
-    blocks : Blocks, optional
-        Threads to work on.
+    displacement : ndarray, shape (3, n)
+        Displacements in scene units.
+    vertex : ndarray, shape (N,), int, optional
+        Which displacement each vertex takes; its own by default.
 
     Returns
     -------
@@ -89,9 +84,7 @@ def displaced(
 
     def kernel(start: int, stop: int) -> None:
         part = slice(start, stop)
-        step = points[:, part].astype(np.float64)
-        step -= origin[:, part]
-        step *= edge
+        step = displacement[:, part] if vertex is None else displacement[:, vertex[part]]
         moved = (vertices[part] + step.T).astype(vertices.dtype)
         result[part] = np.where(step.T != 0, moved, vertices[part])
 

@@ -4,10 +4,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+
+
+class Chunk(NamedTuple):
+    """Rows of one length K: their numbers, shape (n,), and their items, shape (K, n)."""
+
+    rows: NDArray[np.integer]
+    items: NDArray[Any]
 
 
 class Ragged(NamedTuple):
@@ -23,6 +31,8 @@ class Ragged(NamedTuple):
     (array([9, 7, 8]), array([1, 2]))
     >>> rows.kept(rows.items > 7).offset
     array([0, 1, 1, 2])
+    >>> [(chunk.rows.tolist(), chunk.items.tolist()) for chunk in rows.chunks(np.arange(3), lambda _: 10)]
+    [([1], []), ([2], [[9]]), ([0], [[7], [8]])]
     """
 
     offset: NDArray[np.int64]
@@ -47,6 +57,17 @@ class Ragged(NamedTuple):
         begin = self.offset[rows]
         lengths = self.offset[rows + 1] - begin
         return self.items[stretches(begin, lengths)], lengths
+
+    def chunks(self, rows: NDArray[np.integer], at_once: Callable[[int], int]) -> Iterator[Chunk]:
+        """Yield some rows by their length, as arrays without gaps, so that NumPy works on many at a time.
+
+        Of rows of length K at most `at_once(K)` come together. Rows of one length keep their order.
+        """
+        lengths = self.offset[rows + 1] - self.offset[rows]
+        for length in np.flatnonzero(np.bincount(lengths)).tolist():
+            alike, size = rows[lengths == length], max(1, at_once(length))
+            for part in np.split(alike, range(size, len(alike), size)):
+                yield Chunk(part, self.items[self.offset[part] + np.arange(length)[:, None]])
 
 
 def stretches(begin: NDArray[np.integer], lengths: NDArray[np.integer]) -> NDArray[np.intp]:

@@ -60,8 +60,6 @@ def fill_rings(
         Vertices where neighboring faces disagree in orientation.
     labels : ndarray, shape (N,), int32, or None
         By which numbers a neighbor is the lowest-numbered one; None for their own.
-    blocks : Blocks
-        Threads to work on.
     """
     corners = _make_corners(half_edges, first, labels, blocks)
 

@@ -49,8 +49,6 @@ def walk(
         First items, no two of one owner.
     owner, neighbor : ndarray, shape (I,), int32
         The vertex that an item walks around, and the vertex that it points to.
-    blocks : Blocks
-        Threads to work on.
 
     Returns
     -------

@@ -136,6 +136,23 @@ def flattened(surface: SurfaceMesh, spikes: NDArray[np.bool_]) -> NDArray[np.flo
     return vertices
 
 
+def without_spikes(surface: SurfaceMesh, pinned: NDArray[np.integer]) -> SurfaceMesh:
+    """Return a mesh with its spikes brought down, except those among `pinned` vertices, shape (p,).
+
+    Examples
+    --------
+    >>> flat = SurfaceMesh.from_faces(
+    ...     [(x, y, 9.0 * (x == y == 3)) for x in range(7) for y in range(7)],
+    ...     [(k, k + 7, k + 8, k + 1) for k in range(41) if k % 7 < 6],
+    ... )
+    >>> [without_spikes(flat, np.array(pinned, int)).vertices.max().item() for pinned in ([], [24])]
+    [6.0, 9.0]
+    """
+    spikes = find_spikes(surface)
+    spikes[pinned] = False
+    return surface.with_vertices(flattened(surface, spikes))
+
+
 def small_islands(surface: SurfaceMesh, most: int) -> NDArray[np.bool_]:
     """Find the vertices of connected parts with at most so many vertices; the largest part is none of them.
 

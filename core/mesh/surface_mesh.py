@@ -94,14 +94,10 @@ class SurfaceMesh:
         refuses; all methods cope with these.
         """
         mesh = object.__new__(cls)
-        for name, array in (
-            ("vertices", vertices),
-            ("corner_vertex", corner_vertex),
-            ("corner_edge", corner_edge),
-            ("face_offset", face_offset),
-            ("edges", edges),
-        ):
-            object.__setattr__(mesh, name, array)
+        names = ("vertices", "corner_vertex", "corner_edge", "face_offset", "edges")
+        mesh.__dict__.update(
+            zip(names, (vertices, corner_vertex, corner_edge, face_offset, edges), strict=True)
+        )
         return mesh
 
     def frozen(self) -> SurfaceMesh:
@@ -153,26 +149,16 @@ class SurfaceMesh:
 
     def next_corner(self) -> NDArray[np.int32]:
         """Return, for each corner, the next corner of its face, shape (C,), int32."""
-        size = self.common_face_size()
-        if size:
-            following = np.arange(1, self.n_corners + 1, dtype=np.int32)
-            following[size - 1 :: size] -= np.int32(size)
-            return following
         following = np.arange(1, self.n_corners + 1, dtype=np.int32)
-        filled = np.diff(self.face_offset) > 0
-        following[self.face_offset[1:][filled] - 1] = self.face_offset[:-1][filled]
+        filled = np.flatnonzero(np.diff(self.face_offset))
+        following[self.face_offset[1:][filled] - 1] = self.face_offset[filled]
         return following
 
     def previous_corner(self) -> NDArray[np.int32]:
         """Return, for each corner, the previous corner of its face, shape (C,), int32."""
-        size = self.common_face_size()
-        if size:
-            preceding = np.arange(-1, self.n_corners - 1, dtype=np.int32)
-            preceding[::size] += np.int32(size)
-            return preceding
         preceding = np.arange(-1, self.n_corners - 1, dtype=np.int32)
-        filled = np.diff(self.face_offset) > 0
-        preceding[self.face_offset[:-1][filled]] = self.face_offset[1:][filled] - 1
+        filled = np.flatnonzero(np.diff(self.face_offset))
+        preceding[self.face_offset[filled]] = self.face_offset[1:][filled] - 1
         return preceding
 
     def with_vertices(self, vertices: ArrayLike) -> SurfaceMesh:

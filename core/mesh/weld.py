@@ -124,7 +124,7 @@ def same_places(vertices: NDArray[np.floating]) -> NDArray[np.int64]:
     return _first_numbers(number)
 
 
-def _first_numbers(number: NDArray[np.int64]) -> NDArray[np.int64]:
+def _first_numbers(number: NDArray[np.integer]) -> NDArray[np.int64]:
     """Return group numbers, shape (N,), changed to the order of the first member of each group."""
     _, first, group = np.unique(number, return_index=True, return_inverse=True)
     rank = np.empty(len(first), np.int64)
@@ -132,7 +132,7 @@ def _first_numbers(number: NDArray[np.int64]) -> NDArray[np.int64]:
     return rank[group.reshape(-1)]
 
 
-def _linked(vertices: NDArray[np.floating], groups: NDArray[np.int64], distance: float) -> NDArray[np.int64]:
+def _linked(vertices: NDArray[np.floating], groups: NDArray[np.int64], distance: float) -> NDArray[np.int32]:
     """Return the group of each vertex, shape (N,), with groups joined that are at most `distance` apart."""
     n = int(groups.max()) + 1 if len(groups) else 0
     points = np.empty((n, 3))

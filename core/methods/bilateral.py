@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
+from ..mesh.connectivity import Connectivity
+from ..mesh.distance_rings import distance_rings, edge_adjacency
 from ..mesh.geometry import vertex_normals
-from ..mesh.neighborhoods import vertices_within
-from .problem import Problem, Solution
-from .progress import rms_motion
+from .problem import Problem, Solution, rms_motion
 
 _Pairs = tuple[NDArray[np.intp], NDArray[np.intp]]
 
@@ -28,11 +28,8 @@ def bilateral_filter(problem: Problem) -> Solution:
     ----------
     problem : Problem
         With the settings `iterations`, `tolerance`, `sigma_c`, and `sigma_s`, where 0 stands for the standard
-        deviation of the heights on the noisy mesh.
-
-    Returns
-    -------
-    Solution
+        deviation of the heights on the noisy mesh, around the vertices that may move; `strength` is a
+        factor for it.
 
     Notes
     -----
@@ -41,6 +38,8 @@ def bilateral_filter(problem: Problem) -> Solution:
     for along the surface, as far as 2 sigma_c edges.
     """
     noisy, surface, settings, callback = problem.noisy, problem.surface, problem.settings, problem.callback
+    if settings.strength == 0.0:
+        return Solution(noisy, settings.iterations, False, settings)
     dtype = noisy.dtype.type
     points = noisy.copy()
     blocks = problem.blocks.with_block_size(min(problem.blocks.block_size, VERTICES_AT_ONCE))
@@ -48,11 +47,12 @@ def bilateral_filter(problem: Problem) -> Solution:
     pairs = blocks.run(
         lambda start, stop: vertices_within(problem.connectivity, start, stop, reach), noisy.shape[1]
     )
-    sigma_s = settings.sigma_s
+    sigma_s = settings.strength * settings.sigma_s
     for iteration in range(1, settings.iterations + 1):
         normals = np.ascontiguousarray(vertex_normals(surface.with_vertices(points.T)).T, dtype)
         if sigma_s == 0.0:
-            sigma_s = _height_deviation(points, normals, pairs, settings.sigma_c, blocks)
+            sigma_s = _height_deviation(points, normals, pairs, settings.sigma_c, blocks, problem.movable)
+            sigma_s *= settings.strength
         following = points.copy()
 
         def kernel(
@@ -65,9 +65,9 @@ def bilateral_filter(problem: Problem) -> Solution:
         ) -> None:
             center, member = pairs[start // blocks.block_size]
             squared, height = _offsets(points, normals, center, member)
-            weight = np.exp(squared * dtype(-0.5 / settings.sigma_c**2))
+            weight = _bell(squared, settings.sigma_c)
             if sigma_s > 0.0:
-                weight *= np.exp(height * height * dtype(-0.5 / sigma_s**2))
+                weight *= _bell(height * height, sigma_s)
             weight[squared > 4.0 * settings.sigma_c**2] = 0.0
             total = np.bincount(center - start, weight, stop - start)
             moved = np.bincount(center - start, weight * height, stop - start)
@@ -83,6 +83,27 @@ def bilateral_filter(problem: Problem) -> Solution:
         if change < settings.tolerance:
             return Solution(points, iteration, False, settings)
     return Solution(points, settings.iterations, False, settings)
+
+
+def _bell(squared: NDArray[np.floating], sigma: float) -> NDArray[np.floating]:
+    """Return exp(-squared / 2 sigma^2), of the same dtype; for the narrowest bells 0 but at 0."""
+    most = float(np.finfo(squared.dtype).max)
+    with np.errstate(over="ignore"):
+        return np.exp(squared * squared.dtype.type(-min(0.5 / sigma / sigma, most)))
+
+
+def vertices_within(connectivity: Connectivity, start: int, stop: int, n_edges: int) -> _Pairs:
+    """Return the vertices at most so many edges away from each of a range of vertices, as pairs.
+
+    Returns
+    -------
+    center, member : ndarray, shape (P,), intp
+        In ascending order of both; a vertex is not its own member.
+    """
+    rings = distance_rings(edge_adjacency(connectivity), np.arange(start, stop), range(1, n_edges + 1))
+    center, member = (np.concatenate(column) for column in zip(*rings.values(), strict=True))
+    order = np.argsort(center * connectivity.n_vertices + member)
+    return center[order] + start, member[order]
 
 
 def _offsets(
@@ -102,11 +123,19 @@ def _height_deviation(
     pairs: list[_Pairs],
     sigma_c: float,
     blocks: Blocks,
+    movable: NDArray[np.bool_] | None,
 ) -> float:
-    """Return the standard deviation of the heights of all neighbors within 2 sigma_c."""
+    """Return the standard deviation of the heights of all neighbors within 2 sigma_c.
+
+    Only neighbors of `movable` vertices, shape (N,), count; None for all.
+    """
 
     def kernel(start: int, stop: int) -> NDArray[np.float64]:
-        squared, height = _offsets(points, normals, *pairs[start // blocks.block_size])
+        center, member = pairs[start // blocks.block_size]
+        if movable is not None:
+            is_counted = movable[center]
+            center, member = center[is_counted], member[is_counted]
+        squared, height = _offsets(points, normals, center, member)
         height = height[squared <= 4.0 * sigma_c**2].astype(np.float64)
         return np.array([len(height), height.sum(), (height * height).sum()])
 

@@ -69,7 +69,9 @@ def shrink_normals(problem: Problem) -> Solution:
         is_stopped = True
     if not run.is_free.any():
         n_passes = 0  # one was needed to find out that there is nothing to do
-    belief = find_belief(points, fitted, run.unit, engine, problem.edge, run.share_clean())
+    belief = find_belief(
+        points, fitted, run.unit, engine, problem.edge, run.share_clean(), measured=run.measured
+    )
     # Of a mesh that is clean already the lines, which were smoothed before, stay as well.
     start = problem.given if belief.is_clean else noisy
     # The displacement is added, so that what did not move keeps its bits in any precision.
@@ -90,6 +92,7 @@ class _Run:
         self._is_movable[problem.constraints.pinned] = False
         self.is_free = self._is_movable.copy()
         self.unit = np.ones(points.shape[1], np.float32)
+        self.measured = None if problem.movable is None else engine.measured(problem.movable)
 
     def share_clean(self) -> float:
         """Return the share of the vertices that may move and stay because they are clean."""
@@ -106,27 +109,32 @@ class _Run:
             self.unit,
             self.engine.rings,
             self._problem.blocks,
+            self.measured,
         )
         offsets = self.engine.offsets(self.points, moved) / self.unit
-        self.is_free &= ~hardly_moved(offsets, is_clean, self.is_free, self.engine.rings)
+        self.is_free &= ~hardly_moved(
+            offsets, is_clean, self.is_free, self.engine.rings, self._problem.movable
+        )
         moved[:, ~self.is_free] = self.points[:, ~self.is_free]
         return moved
 
     def next_pass(self, fitted: NDArray[np.float32]) -> NDArray[np.float32]:
         """Return the positions, shape (3, N), after a pass that is guided by fitted ones."""
-        taken = self.engine.taken(self.points, fitted) if fitted is not self.points else None
+        is_input = fitted is self.points
+        taken = None if is_input else self.engine.taken(self.points, fitted, self.measured)
         return self._fitted(self._normals(fitted, taken))
 
     def _normals(
         self, points: NDArray[np.float32], taken: Taken | None, *, is_first: bool = False
     ) -> NDArray[np.float32]:
         """Return the normals that the nets want for faces, shape (3, F)."""
-        scales, features = self.engine.describe(points, taken, self._log_strength)
+        scales, features = self.engine.describe(points, taken, self._log_strength, self.measured)
         self.unit = scales.unit
         if is_first:
-            self.is_free &= ~flat_vertices(points, scales, self.engine.graph)
+            self.is_free &= ~flat_vertices(points, scales, self.engine.graph, self.measured)
             if self._problem.settings.noise == "AUTO":
-                self._is_wide = find_wide(features.quantiles)
+                by_island = find_wide(features.quantiles)
+                self._is_wide = by_island if features.island is None else by_island[features.island]
         self._tick()
         fine = None
         if self._is_wide.any() and not self._is_wide.all():
@@ -140,7 +148,7 @@ class _Run:
 
     def _fitted(self, normals: NDArray[np.float32]) -> NDArray[np.float32]:
         """Return the vertices, shape (3, N), whose faces have these normals."""
-        moved = self.engine.fit.fit(self.points, normals, self.is_free)
+        moved = self.engine.fit.fit(self.points, normals, self.is_free, self.unit)
         self._problem.constraints.apply(moved, self.points)
         step = moved - self.points
         is_far = np.sqrt((step * step).sum(axis=0)) > FARTHEST * self.unit

@@ -45,8 +45,6 @@ class Problem:
         The method and its parameters.
     constraints : Constraints
         Vertices that may not move freely.
-    blocks : Blocks
-        Threads to work on.
     transform : FrameTransform or None
         The frame with frozen stencils, if the method uses one.
     engine : FaceEngine or None
@@ -55,6 +53,8 @@ class Problem:
         See `Callback`.
     line_vertices : int
         Number of vertices on feature lines.
+    movable : ndarray, shape (N,), bool, or None
+        Vertices that may move, on which noise is measured; None for all.
     """
 
     noisy: NDArray[np.floating]
@@ -69,6 +69,7 @@ class Problem:
     engine: FaceEngine | None = None
     callback: Callback | None = None
     line_vertices: int = 0
+    movable: NDArray[np.bool_] | None = None
 
 
 class Solution(NamedTuple):
@@ -83,3 +84,14 @@ class Solution(NamedTuple):
     """With the parameters that were chosen, if the method chooses any."""
     noise: NoiseEstimate | None = None
     """The noise, if the method measured it."""
+
+
+def rms_motion(points: NDArray[np.floating], before: NDArray[np.floating], blocks: Blocks) -> float:
+    """Return the root mean square distance between two sets of points, shape (3, N), in their unit."""
+
+    def kernel(start: int, stop: int) -> float:
+        step = points[:, start:stop] - before[:, start:stop]
+        step *= step
+        return float(step.sum())  # in pairs, so that single precision does
+
+    return float(np.sqrt(sum(blocks.run(kernel, points.shape[1])) / points.shape[1]))

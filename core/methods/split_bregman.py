@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from ..blocks import Blocks
 from ..limits.constraints import Constraints
 from ..transform import FrameTransform
-from ..transform.level import Chunk, Level
-from .progress import rms_motion
+from ..transform.level import Bands, Level
+from .problem import rms_motion
 from .proximal import Penalty
 
 Watch = Callable[[int, NDArray[np.floating], float], bool]
@@ -54,8 +54,6 @@ def split_bregman(
         mu, delta, iterations, tolerance.
     constraints : Constraints or None
         Vertices that may not move freely.
-    blocks : Blocks
-        Threads to work on.
     callback : callable, optional
         See `Watch`.
 
@@ -126,10 +124,10 @@ class _Shrinkage:
     def __init__(self, level: Level, penalty: Penalty, mu: float) -> None:
         self._groups = [level.group_starts(index) for index in range(len(level.sites))]
         self._unpenalized = [level.unpenalized(index) for index in range(len(level.sites))]
-        self._residual: list[Chunk | None] = [None] * len(level.sites)  # b, zero at first
+        self._residual: list[Bands | None] = [None] * len(level.sites)  # b, zero at first
         self._penalty, self._mu = penalty, mu
 
-    def __call__(self, index: int, high: Chunk) -> None:
+    def __call__(self, index: int, high: Bands) -> None:
         """Replace the high bands of one chunk, in place; a `Visit`."""
         free = self._unpenalized[index]
         begin, end, _ = free.indices(high.shape[1])

@@ -84,9 +84,12 @@ class NoiseEstimate:
 
 
 def estimate_noise(
-    surface: SurfaceMesh, connectivity: Connectivity | None = None, blocks: Blocks | None = None
+    surface: SurfaceMesh,
+    connectivity: Connectivity | None = None,
+    blocks: Blocks | None = None,
+    where: NDArray[np.bool_] | None = None,
 ) -> NoiseEstimate:
-    """Estimate the noise of a mesh from the mesh alone.
+    """Estimate the noise of a mesh, or of a part of it, from the mesh alone.
 
     Parameters
     ----------
@@ -96,10 +99,8 @@ def estimate_noise(
         Its neighborhoods, if they are known already.
     blocks : Blocks, optional
         Threads to work on; results do not depend on their number.
-
-    Returns
-    -------
-    NoiseEstimate
+    where : ndarray, shape (N,), bool, optional
+        Vertices around which it is measured; by default all.
 
     Raises
     ------
@@ -121,7 +122,7 @@ def estimate_noise(
     blocks = blocks or Blocks(1)
     connectivity = connectivity or connect(surface, blocks)
     positions = normalize(surface, connectivity, edge)
-    residuals = _residuals(positions, surface, connectivity, blocks)
+    residuals = _residuals(positions, surface, connectivity, blocks, where)
     if residuals is None:
         return NoiseEstimate(0.0, 0.0, 0.0, False, 0.0)
     noise = find_local_noise(residuals)
@@ -137,11 +138,18 @@ def estimate_noise(
 
 
 def _residuals(
-    positions: NDArray[np.float64], surface: SurfaceMesh, connectivity: Connectivity, blocks: Blocks
+    positions: NDArray[np.float64],
+    surface: SurfaceMesh,
+    connectivity: Connectivity,
+    blocks: Blocks,
+    where: NDArray[np.bool_] | None,
 ) -> Residuals | None:
     """Return what the fits leave over, or None without a patch that is small in the mesh."""
     used = np.flatnonzero(~connectivity.is_loose)
-    centers = spread_sample(positions, used, N_PATCHES)
+    centers = used if where is None else used[where[used]]
+    if not len(centers):
+        return None
+    centers = spread_sample(positions, centers, N_PATCHES)
     adjacency = local_adjacency(surface, connectivity, centers)
 
     def kernel(start: int, stop: int) -> Residuals:

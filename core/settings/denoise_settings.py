@@ -47,12 +47,11 @@ give method="POSITIONS".
     strength: float = _setting(
         1.0,
         "Strength",
-        "How strong the noise is taken to be, in units of what the mesh shows: larger removes more noise and "
-        "more detail; 1 trusts the mesh, 0 changes nothing",
+        "How strong the noise is taken to be, in units of what the mesh shows, or of λ and of the height "
+        "below: larger removes more noise and more detail; 1 trusts them, 0 changes nothing",
         minimum=0.0,
         maximum=10.0,
         soft_maximum=2.0,
-        methods=("AUTO",),
     )
     noise: str = _setting(
         "AUTO",
@@ -269,13 +268,7 @@ PRESETS: Mapping[str, Preset] = {
     "POSITIONS": Preset(
         "Positions",
         "For even, soft smoothing of any mesh: the frame that fits its faces, vector shrinkage",
-        {
-            "method": "POSITIONS",
-            "frame": "AUTO",
-            "stencil": "STRAIGHT",
-            "shrinkage": "VECTOR",
-            "lambda_": 0.25,
-        },
+        {"method": "POSITIONS"},
     ),
     "TRI_1": Preset(
         "Paper Tri-1",
@@ -291,13 +284,7 @@ PRESETS: Mapping[str, Preset] = {
     "TRI_2": Preset(
         "Paper Tri-2",
         "The paper's algorithm for triangles that keeps edges better: straight pairs, vector shrinkage",
-        {
-            "method": "POSITIONS",
-            "frame": "BOX_SPLINE_111",
-            "stencil": "STRAIGHT",
-            "shrinkage": "VECTOR",
-            "lambda_": 0.3,
-        },
+        {"method": "POSITIONS", "frame": "BOX_SPLINE_111", "lambda_": 0.3},
     ),
     "QUAD_1": Preset(
         "Paper Quad-1",
@@ -313,13 +300,7 @@ PRESETS: Mapping[str, Preset] = {
     "QUAD_2": Preset(
         "Paper Quad-2",
         "The paper's algorithm for quads that keeps edges better: straight pairs, vector shrinkage",
-        {
-            "method": "POSITIONS",
-            "frame": "LINEAR_SPLINE",
-            "stencil": "STRAIGHT",
-            "shrinkage": "VECTOR",
-            "lambda_": 0.2,
-        },
+        {"method": "POSITIONS", "frame": "LINEAR_SPLINE", "lambda_": 0.2},
     ),
     "BILATERAL": Preset(
         "Bilateral",

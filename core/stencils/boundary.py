@@ -13,16 +13,16 @@ from numpy.typing import NDArray
 
 from ..mesh.connectivity import Connectivity
 from .builder import Place, StencilBuilder
-from .members import Members
+from .members import RingPoints
 
 
 def set_rim_pair(
-    builder: StencilBuilder, members: Members, wanted: NDArray[np.intp], first: Place, last: Place
+    builder: StencilBuilder, ring_points: RingPoints, wanted: NDArray[np.intp], first: Place, last: Place
 ) -> None:
-    """Put the two members along the border, the ends of open rings, under a pair of opposite taps."""
-    offset = members.connectivity.ring_offset
-    builder.set(first, wanted, members.near[offset[wanted]])
-    builder.set(last, wanted, members.near[offset[wanted + 1] - 1])
+    """Put the two ring points along the border, the ends of open rings, under a pair of opposite taps."""
+    offset = ring_points.connectivity.ring_offset
+    builder.set(first, wanted, ring_points.near[offset[wanted]])
+    builder.set(last, wanted, ring_points.near[offset[wanted + 1] - 1])
 
 
 def set_mirrored(
@@ -44,7 +44,7 @@ def inner_means(
 ) -> NDArray[np.int32]:
     """Return means over open rings without their ends; the vertex itself where nothing is left.
 
-    `n_outer` entries are left out: 2 of the near members, 3 of the far ones, of which there is one less.
+    `n_outer` entries are left out: 2 of the near ring points, 3 of the far ones, of which there is one less.
     """
     counts = np.maximum(connectivity.valence[wanted] - n_outer, 0)
     points, is_filled = builder.add_means(values, connectivity.ring_offset[wanted] + 1, counts)

@@ -30,8 +30,6 @@ class StencilBuilder:
         never set holds the vertex itself: such taps carry no detail.
     is_vertex_centered : bool
         Whether tap 0 is the vertex itself.
-    blocks : Blocks, optional
-        Threads to work on.
     """
 
     def __init__(
@@ -132,6 +130,13 @@ class StencilBuilder:
         self._vertices.append(vertices.T.astype(np.int32).ravel())
         self._weights.append(np.tile(weights, n))
         return self._number(n)
+
+    def add_midpoints(self, one: NDArray[np.int64], two: NDArray[np.int64]) -> NDArray[np.int32]:
+        """Return midpoints of vertices, both shape (n,), or the one that is there; -1 where none is."""
+        points = np.maximum(one, two).astype(np.int32)
+        differ = (one >= 0) & (two >= 0) & (one != two)
+        points[differ] = self.add_combined(np.stack((one[differ], two[differ])), (0.5, 0.5))
+        return points
 
     def positions(self, vertices: NDArray[np.floating], points: NDArray[np.int32]) -> NDArray[np.float64]:
         """Return the positions of points, vertices or virtual ones, shape (..., 3), float64."""

@@ -114,9 +114,7 @@ def _fill_corner(
             if a == b == 0 or not builder.has(place):
                 continue
             one, two = grid.sector(first, second, swing, a, b)
-            points = np.maximum(one, two).astype(np.int32)
-            differ = (one >= 0) & (two >= 0) & (one != two)
-            points[differ] = builder.add_combined(np.stack((one[differ], two[differ])), (0.5, 0.5))
+            points = builder.add_midpoints(one, two)
             _set_orbit_means(builder, grid, connectivity, corners, k, is_extraordinary, (a, b, swing), points)
             missing = points < 0
             # The mirror image, in the corner, of the tap as far inside; where that is none, the corner.

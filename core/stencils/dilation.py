@@ -4,7 +4,7 @@
 
 The dilation of a member P of vertex V on the d-ring is the vertex X of the 2d-ring with the smallest angle
 between X - P and P - V: the point that goes on straightest. Vertices whose 2d-ring is empty, on small meshes,
-have no members there.
+have no ring points there.
 """
 
 from __future__ import annotations
@@ -16,56 +16,51 @@ from ..blocks import Blocks
 from ..mesh.distance_rings import Ring, distance_rings
 from ..mesh.locality import spatial_order
 from ..mesh.ragged import Ragged
-from .members import Members
+from .members import RingPoints
 from .straight import TIE
-
-CANDIDATES_PER_BLOCK = 2**18
-"""Candidates that a block may hold, so that its arrays stay small however wide the rings are."""
 
 CANDIDATES_AT_ONCE = 2**15
 """Candidates whose angles are measured at once, in the cache."""
 
 
 def dilate(
-    members: Members,
+    ring_points: RingPoints,
     vertices: NDArray[np.floating],
     adjacency: Ragged,
     level: int,
     far_distance: int,
     blocks: Blocks,
-) -> Members:
-    """Dilate the members of level 0 to the rings of a level.
+) -> RingPoints:
+    """Dilate the ring points of level 0 to the rings of a level.
 
     Parameters
     ----------
-    members : Members
-        Members of level 0.
+    ring_points : RingPoints
+        RingPoints of level 0.
     vertices : ndarray, shape (N, 3)
         Positions on which angles are measured: the surface handed to this level.
     adjacency : Ragged
         What counts as one step.
     level : int
-        Level l; near members are looked for on the 2^l-ring.
+        Level l; near ring points are looked for on the 2^l-ring.
     far_distance : int
-        Steps to the far members of level 0: 1 on quads, 2 across triangle edges.
-    blocks : Blocks
-        Threads to work on.
+        Steps to the far ring points of level 0: 1 on quads, 2 across triangle edges.
 
     Returns
     -------
-    Members
-        Dilated members in the same order; on angle ties (up to rounding) the lowest vertex number wins.
+    RingPoints
+        Dilated ring points in the same order; on angle ties (up to rounding) the lowest vertex number wins.
     """
     if level == 0:
-        return members
-    near = members.near.copy()
-    far = None if members.far is None else members.far.copy()
+        return ring_points
+    near = ring_points.near.copy()
+    far = None if ring_points.far is None else ring_points.far.copy()
     steps = 2 ** np.arange(1, level + 1)
     distances = {int(step) for step in steps}
     if far is not None:
         distances |= {int(step) * far_distance for step in steps}
     points = np.ascontiguousarray(vertices.T, np.float64)  # `take` would copy all of it each time
-    offset, order = members.connectivity.ring_offset, _Order(members.connectivity.labels)
+    offset, order = ring_points.connectivity.ring_offset, _Order(ring_points.connectivity.labels)
 
     near_by = spatial_order(vertices)  # the search shares its work among centers that lie close together
 
@@ -77,25 +72,25 @@ def dilate(
             if far is not None:
                 _dilate_once(points, far, offset, centers, rings[int(step) * far_distance], order)
 
-    blocks.with_block_size(max(1, CANDIDATES_PER_BLOCK // (8 * max(distances)))).run(
-        kernel, members.connectivity.n_vertices
-    )
-    return Members(members.connectivity, near, far)
+    # About as many candidates in a block, however wide the rings are.
+    small = blocks.with_block_size(max(1, blocks.block_size // max(distances)))
+    small.run(kernel, ring_points.connectivity.n_vertices)
+    return RingPoints(ring_points.connectivity, near, far)
 
 
 def _dilate_once(
     points: NDArray[np.float64],
-    members: NDArray[np.int32],
+    ring_points: NDArray[np.int32],
     offset: NDArray[np.int64],
     centers: NDArray[np.int32],
     ring: Ring,
     order: _Order,
 ) -> None:
-    """Replace the members of some vertices by their dilations on a ring, in place."""
+    """Replace the ring points of some vertices by their dilations on a ring, in place."""
     valence = offset[centers + 1] - offset[centers]
     counts = np.bincount(ring.row, minlength=len(centers))
     begin = np.cumsum(counts) - counts
-    # Vertices with as many members, and candidates up to a multiple of four, go together.
+    # Vertices with as many ring points, and candidates up to a multiple of four, go together.
     width = -(-counts // 4) * 4
     kind = valence * (int(width.max(initial=0)) + 1) + width
     for value in np.unique(kind[valence > 0]):
@@ -104,33 +99,33 @@ def _dilate_once(
         step = max(1, CANDIDATES_AT_ONCE // max(n_candidates, 1))
         for part in np.split(group, range(step, len(group), step)):
             place = offset[centers[part]] + np.arange(n_members)[:, None]
-            old = members[place]
+            old = ring_points[place]
             if not n_candidates:
-                members[place] = -1
+                ring_points[place] = -1
                 continue
             # Rows that are too short repeat their last candidate, which changes nothing.
             column = np.minimum(np.arange(n_candidates)[:, None], counts[part] - 1)
             candidates = ring.vertex[begin[part] + column]
             chosen = _straightest(points, centers[part], old, candidates, order)
-            members[place] = np.where(old >= 0, chosen, -1)
+            ring_points[place] = np.where(old >= 0, chosen, -1)
 
 
 def _straightest(
     points: NDArray[np.float64],
     centers: NDArray[np.int32],
-    members: NDArray[np.int32],
+    ring_points: NDArray[np.int32],
     candidates: NDArray[np.intp],
     order: _Order,
 ) -> NDArray[np.integer]:
-    """Return, for members (m, n) of centers (n,), the candidates (c, n) that go on straightest, (m, n)."""
-    pivots = points.take(members, axis=1, mode="clip")
+    """Return the candidates (c, n) that go on straightest from ring points (m, n) of centers (n,), (m, n)."""
+    pivots = points.take(ring_points, axis=1, mode="clip")
     spokes = pivots - points.take(centers, axis=1)[:, None]
     length = np.sqrt((spokes * spokes).sum(axis=0))
     spokes /= np.where(length > 0, length, 1.0)
     targets = points.take(candidates, axis=1)
     last = order.codes_of(candidates)
-    best = np.empty(members.shape, np.int64)
-    for one in range(len(members)):
+    best = np.empty(ring_points.shape, np.int64)
+    for one in range(len(ring_points)):
         leap = targets - pivots[:, one, None]
         along = leap * spokes[:, one, None]
         cosine = np.add(along[0], along[1], out=along[0])

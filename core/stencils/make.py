@@ -13,11 +13,11 @@ from ..mesh.distance_rings import edge_adjacency, face_adjacency
 from ..mesh.surface_mesh import SurfaceMesh
 from .builder import StencilBuilder
 from .dilation import dilate
-from .members import one_ring_members, quad_members, triangle_members
+from .members import one_ring_points, quad_points, triangle_points
 from .quads import fill_quads
 from .stencil import Stencil
 from .triangles import ACROSS, fill_triangles
-from .walked import make_walked_stencil
+from .walked import make_grid_stencil
 
 RULES = ("MEAN", "STRAIGHT")
 BOUNDARIES = ("ALONG", "FIXED", "FREE")
@@ -44,8 +44,6 @@ def make_stencil(
         The rule at irregular vertices; those that STRAIGHT cannot serve take MEAN.
     boundary : {"ALONG", "FIXED", "FREE"}
         With FREE, boundary vertices are irregular vertices like others; else missing points are mirrored.
-    blocks : Blocks, optional
-        Threads to work on.
     bank : FilterBank
         The masks to serve.
     level : int
@@ -67,18 +65,20 @@ def make_stencil(
         raise FrameError(f"The boundary is {boundary!r}; choose one of {', '.join(BOUNDARIES)}.")
     blocks = blocks or Blocks(1)
     if bank.is_cell_centered or bank.reach > 1:
-        return make_walked_stencil(surface, connectivity, boundary, bank, level)
+        return make_grid_stencil(surface, connectivity, boundary, bank, level)
     builder = StencilBuilder(surface.n_vertices, bank.offsets, blocks=blocks)
     if bank.lattice == "QUADS":
-        members = quad_members(surface, connectivity)
+        ring_points = quad_points(surface, connectivity)
         if level:
             adjacency = face_adjacency(surface, connectivity)
-            members = dilate(members, surface.vertices, adjacency, level, 1, blocks)
-        fill_quads(builder, surface.vertices, members, rule, boundary, blocks)
+            ring_points = dilate(ring_points, surface.vertices, adjacency, level, 1, blocks)
+        fill_quads(builder, surface.vertices, ring_points, rule, boundary, blocks)
     else:
         has_far = builder.has(*ACROSS)
-        members = triangle_members(surface, connectivity) if has_far else one_ring_members(connectivity)
+        ring_points = triangle_points(surface, connectivity) if has_far else one_ring_points(connectivity)
         if level:
-            members = dilate(members, surface.vertices, edge_adjacency(connectivity), level, 2, blocks)
-        fill_triangles(builder, surface.vertices, members, rule, boundary, blocks)
+            ring_points = dilate(
+                ring_points, surface.vertices, edge_adjacency(connectivity), level, 2, blocks
+            )
+        fill_triangles(builder, surface.vertices, ring_points, rule, boundary, blocks)
     return builder.finish()

@@ -11,7 +11,7 @@ from ..blocks import Blocks
 from .boundary import inner_means, set_mirrored, set_rim_pair
 from .builder import StencilBuilder
 from .mean import fill_mean
-from .members import Members
+from .members import RingPoints
 from .straight import HIGHEST_VALENCE, complete_rings, pair_positions
 
 NEAR = ((0, -1), (-1, 0), (0, 1), (1, 0))
@@ -24,7 +24,7 @@ FAR = ((-1, -1), (-1, 1), (1, 1), (1, -1))
 def fill_quads(
     builder: StencilBuilder,
     vertices: NDArray[np.floating],
-    members: Members,
+    ring_points: RingPoints,
     rule: str,
     boundary: str,
     blocks: Blocks,
@@ -39,51 +39,49 @@ def fill_quads(
         Receives the points.
     vertices : ndarray, shape (N, 3)
         Positions on which angles and lengths are measured.
-    members : Members
+    ring_points : RingPoints
         Edge neighbors and far corners, at level 0 or dilated.
     rule, boundary : str
         See `make_stencil`.
-    blocks : Blocks
-        Threads to work on.
     """
-    assert members.far is not None
-    connectivity = members.connectivity
-    found = members.is_found()
+    assert ring_points.far is not None
+    connectivity = ring_points.connectivity
+    found = ring_points.is_found()
     is_regular = connectivity.is_regular_quad()
     builder.is_irregular[:] = ~connectivity.is_loose & ~is_regular
     is_rim = connectivity.boundary_neighbors[:, 0] >= 0
     if boundary == "FREE":
         is_rim[:] = False
     regular = np.flatnonzero(found & is_regular)
-    for places, rows in ((NEAR, members.near_rows(regular, 4)), (FAR, members.far_rows(regular, 4))):
+    for places, rows in ((NEAR, ring_points.near_rows(regular, 4)), (FAR, ring_points.far_rows(regular, 4))):
         for place, points in zip(places, rows, strict=True):
             builder.set(place, regular, points)
-    _fill_rim(builder, members, np.flatnonzero(found & is_rim))
+    _fill_rim(builder, ring_points, np.flatnonzero(found & is_rim))
     irregular = np.flatnonzero(found & ~is_regular & ~is_rim)
     if rule == "STRAIGHT":
-        irregular = _fill_straight(builder, vertices, members, irregular, blocks)
-    fill_mean(builder, members.near, connectivity, irregular, NEAR)
+        irregular = _fill_straight(builder, vertices, ring_points, irregular, blocks)
+    fill_mean(builder, ring_points.near, connectivity, irregular, NEAR)
     # Without a quad there is no far corner; the mean of the ring keeps those taps on the surface.
-    without = fill_mean(builder, members.far, connectivity, irregular, FAR)
-    fill_mean(builder, members.near, connectivity, without, FAR)
+    without = fill_mean(builder, ring_points.far, connectivity, irregular, FAR)
+    fill_mean(builder, ring_points.near, connectivity, without, FAR)
 
 
-def _fill_rim(builder: StencilBuilder, members: Members, wanted: NDArray[np.intp]) -> None:
+def _fill_rim(builder: StencilBuilder, ring_points: RingPoints, wanted: NDArray[np.intp]) -> None:
     """Fill the taps of manifold boundary vertices: what lies inside, and its mirror image outside.
 
     With two quads these are the lattice's own points; with another number their means.
     """
-    assert members.far is not None
-    connectivity = members.connectivity
-    set_rim_pair(builder, members, wanted, NEAR[0], NEAR[2])
-    set_mirrored(builder, NEAR[1], wanted, inner_means(builder, members.near, connectivity, wanted, 2))
+    assert ring_points.far is not None
+    connectivity = ring_points.connectivity
+    set_rim_pair(builder, ring_points, wanted, NEAR[0], NEAR[2])
+    set_mirrored(builder, NEAR[1], wanted, inner_means(builder, ring_points.near, connectivity, wanted, 2))
     offset = connectivity.ring_offset[wanted]
     is_pair = connectivity.all_quads[wanted] & (connectivity.valence[wanted] == 3)
     pair = wanted[is_pair]
     for place, step in ((FAR[0], 0), (FAR[1], 1)):
-        set_mirrored(builder, place, pair, members.far[offset[is_pair] + step])
+        set_mirrored(builder, place, pair, ring_points.far[offset[is_pair] + step])
     other = wanted[~is_pair]
-    points, is_filled = builder.add_means(members.far, offset[~is_pair], connectivity.valence[other])
+    points, is_filled = builder.add_means(ring_points.far, offset[~is_pair], connectivity.valence[other])
     for place in FAR[:2]:
         set_mirrored(builder, place, other[is_filled], points)
 
@@ -91,7 +89,7 @@ def _fill_rim(builder: StencilBuilder, members: Members, wanted: NDArray[np.intp
 def _fill_straight(
     builder: StencilBuilder,
     vertices: NDArray[np.floating],
-    members: Members,
+    ring_points: RingPoints,
     wanted: NDArray[np.intp],
     blocks: Blocks,
 ) -> NDArray[np.intp]:
@@ -103,7 +101,7 @@ def _fill_straight(
 
     Returns those of `wanted` that the rule cannot serve: other valences, or faces other than quads.
     """
-    connectivity = members.connectivity
+    connectivity = ring_points.connectivity
     valence = connectivity.valence[wanted]
     is_served = connectivity.all_quads[wanted] & ~connectivity.is_non_manifold[wanted]
     is_served &= ~connectivity.is_boundary[wanted]
@@ -112,13 +110,13 @@ def _fill_straight(
     for value in np.unique(valence[is_served]):
         group = wanted[is_served & (valence == value)]
         if value == 3:
-            ring = _rim(members, group, 3)
+            ring = _rim(ring_points, group, 3)
             _set_alternating(builder, vertices, group, np.stack(complete_rings(builder, vertices, ring, 8)))
             continue
 
         def kernel(start: int, stop: int, group: NDArray[np.intp] = group, value: int = int(value)) -> None:
             part = group[start:stop]
-            ring = _rim(members, part, value)
+            ring = _rim(ring_points, part, value)
             positions = pair_positions(coordinates, part, ring, 4)
             kept = np.sort(np.stack([place for pair in positions for place in pair]), axis=0)
             _set_alternating(builder, vertices, part, np.take_along_axis(ring, kept, axis=0))
@@ -127,11 +125,11 @@ def _fill_straight(
     return wanted[~is_served]
 
 
-def _rim(members: Members, group: NDArray[np.intp], valence: int) -> NDArray[np.int32]:
-    """Return near and far members in turn, shape (2 * valence, n)."""
+def _rim(ring_points: RingPoints, group: NDArray[np.intp], valence: int) -> NDArray[np.int32]:
+    """Return near and far ring points in turn, shape (2 * valence, n)."""
     rim = np.empty((2 * valence, len(group)), np.int32)
-    rim[0::2] = members.near_rows(group, valence)
-    rim[1::2] = members.far_rows(group, valence)
+    rim[0::2] = ring_points.near_rows(group, valence)
+    rim[1::2] = ring_points.far_rows(group, valence)
     return rim
 
 

@@ -70,8 +70,6 @@ class Stencil:
         ----------
         points : ndarray, shape (3, N + X)
             Coordinates in rows; the first N columns are read, the others are written.
-        blocks : Blocks
-            Threads to work on.
         """
         offset = self.virtual_offset
 

@@ -14,7 +14,7 @@ from ..blocks import Blocks
 from ..mesh.geometry import coordinate_rows
 from .builder import Place, StencilBuilder
 from .mean import fill_mean
-from .members import Members
+from .members import RingPoints
 
 HIGHEST_VALENCE = 1024
 """Above it the search over all pairs would take more memory than such a fan is worth; MEAN serves there."""
@@ -35,7 +35,7 @@ _CODES = 2**12
 def fill_straight(
     builder: StencilBuilder,
     vertices: NDArray[np.floating],
-    members: Members,
+    ring_points: RingPoints,
     wanted: NDArray[np.intp],
     places: Sequence[Place],
     blocks: Blocks,
@@ -53,14 +53,12 @@ def fill_straight(
         Receives slots and midpoints.
     vertices : ndarray, shape (N, 3)
         Positions on which angles and lengths are measured.
-    members : Members
+    ring_points : RingPoints
         One-rings, at level 0 or dilated.
     wanted : ndarray, shape (n,), intp
-        Vertices to fill; all have near members.
+        Vertices to fill; all have near ring_points.
     places : sequence of six (row, column)
         The ring of taps; opposite is three places on.
-    blocks : Blocks
-        Threads to work on.
 
     Returns
     -------
@@ -68,7 +66,7 @@ def fill_straight(
         Those of `wanted` that the rule cannot serve: fewer than three neighbors, fewer than four without
         edges between them, or more than `HIGHEST_VALENCE`.
     """
-    connectivity = members.connectivity
+    connectivity = ring_points.connectivity
 
     def sort(start: int, stop: int) -> list[NDArray[np.intp]]:
         part = wanted[start:stop]
@@ -82,11 +80,11 @@ def fill_straight(
     sorts = zip(*blocks.run(sort, len(wanted)), strict=True)
     pairable, four, three, unserved = map(np.concatenate, sorts) if len(wanted) else (wanted,) * 4
     third = pairable[connectivity.valence[pairable] == 4]
-    fill_mean(builder, members.near, connectivity, third, places)  # its third pair
-    _fill_pairs(builder, coordinate_rows(vertices, blocks), members, pairable, places, blocks)
+    fill_mean(builder, ring_points.near, connectivity, third, places)  # its third pair
+    _fill_pairs(builder, coordinate_rows(vertices, blocks), ring_points, pairable, places, blocks)
     for value, group in ((4, four), (3, three)):
         if len(group):
-            completed = complete_rings(builder, vertices, members.near_rows(group, value), 6, blocks)
+            completed = complete_rings(builder, vertices, ring_points.near_rows(group, value), 6, blocks)
             for place, points in zip(places, completed, strict=True):
                 builder.set(place, group, points)
     return unserved
@@ -95,32 +93,31 @@ def fill_straight(
 def _fill_pairs(
     builder: StencilBuilder,
     points: NDArray[np.float64],
-    members: Members,
+    ring_points: RingPoints,
     wanted: NDArray[np.intp],
     places: Sequence[Place],
     blocks: Blocks,
 ) -> None:
-    """Put the pairs of `straight_pairs` under the taps of vertices; `points` (3, N) are the positions."""
+    """Put the pairs of `pair_positions` under the taps of vertices; `points` (3, N) are the positions."""
 
     def kernel(start: int, stop: int) -> None:
-        valence = members.connectivity.valence[wanted[start:stop]]
+        valence = ring_points.connectivity.valence[wanted[start:stop]]
         for value in map(int, np.flatnonzero(np.bincount(valence))):
             group = wanted[start:stop][valence == value]
             size = max(1, 2**18 // value**2)  # so that the table of pairs stays in the cache
             for begin in range(0, len(group), size):
                 part = group[begin : begin + size]
-                pairs = straight_pairs(points, part, members.near_rows(part, value), min(value // 2, 3))
-                n_pairs = len(pairs) // 2
-                for pair in range(n_pairs):
-                    builder.set(places[pair], part, pairs[pair])
-                    builder.set(places[pair + 3], part, pairs[pair + n_pairs])
+                rings, columns = ring_points.near_rows(part, value), np.arange(len(part))
+                for number, (one, two) in enumerate(pair_positions(points, part, rings, min(value // 2, 3))):
+                    builder.set(places[number], part, rings[one, columns])
+                    builder.set(places[number + 3], part, rings[two, columns])
 
     blocks.run(kernel, len(wanted))
 
 
-def straight_pairs(
+def pair_positions(
     points: NDArray[np.float64], centers: NDArray[np.intp], rings: NDArray[np.int32], n_pairs: int
-) -> NDArray[np.int32]:
+) -> list[tuple[NDArray[np.intp], NDArray[np.intp]]]:
     """Choose pairs of ring vertices greedily by largest angle at the center, each ring vertex once.
 
     Parameters
@@ -132,26 +129,14 @@ def straight_pairs(
     rings : ndarray, shape (K, n), int32
         Their rings.
     n_pairs : int
-        Number of pairs, at most K // 2; rings of five have one more, see Notes.
+        Number of pairs, at most K // 2. In a ring of five the vertex left over is paired once more with the
+        used one that makes the largest angle.
 
     Returns
     -------
-    ndarray, shape (2 P, n), int32
-        The first vertices of the P pairs, then the second ones.
-
-    Notes
-    -----
-    In a ring of five the vertex left over is paired once more with the used one that makes the largest angle.
+    list of (first, second)
+        For each pair the places of its vertices in the rings, shape (n,) each.
     """
-    chosen = pair_positions(points, centers, rings, n_pairs)
-    columns = np.arange(rings.shape[1])
-    return np.stack([rings[a, columns] for a, _ in chosen] + [rings[b, columns] for _, b in chosen])
-
-
-def pair_positions(
-    points: NDArray[np.float64], centers: NDArray[np.intp], rings: NDArray[np.int32], n_pairs: int
-) -> list[tuple[NDArray[np.intp], NDArray[np.intp]]]:
-    """Return the ring positions of the pairs of `straight_pairs`, each (n,)."""
     valence = len(rings)
     first, second = np.triu_indices(valence, 1)
     ranks = _pair_ranks(points, centers, rings)
@@ -242,8 +227,6 @@ def complete_rings(
         Closed rings of vertices.
     size : int
         Wanted number of points, at least K and at most 2 K.
-    blocks : Blocks, optional
-        Threads to work on.
 
     Returns
     -------

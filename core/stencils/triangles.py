@@ -11,7 +11,7 @@ from ..blocks import Blocks
 from .boundary import inner_means, set_mirrored, set_rim_pair
 from .builder import StencilBuilder
 from .mean import fill_mean
-from .members import Members
+from .members import RingPoints
 from .straight import fill_straight
 
 RING = ((-1, -1), (-1, 0), (0, 1), (1, 1), (1, 0), (0, -1))
@@ -24,7 +24,7 @@ ACROSS = ((-1, 1), (1, -1))
 def fill_triangles(
     builder: StencilBuilder,
     vertices: NDArray[np.floating],
-    members: Members,
+    ring_points: RingPoints,
     rule: str,
     boundary: str,
     blocks: Blocks,
@@ -39,15 +39,13 @@ def fill_triangles(
         Receives the points.
     vertices : ndarray, shape (N, 3)
         Positions on which angles and lengths are measured.
-    members : Members
-        One-rings, at level 0 or dilated; with far members if the stencil has taps across ring edges.
+    ring_points : RingPoints
+        One-rings, at level 0 or dilated; with far ring points if the stencil has taps across ring edges.
     rule, boundary : str
         See `make_stencil`.
-    blocks : Blocks
-        Threads to work on.
     """
-    connectivity = members.connectivity
-    found = members.is_found(blocks)
+    connectivity = ring_points.connectivity
+    found = ring_points.is_found(blocks)
     is_regular = connectivity.is_regular_triangle()
     builder.is_irregular[:] = ~connectivity.is_loose & ~is_regular
     is_rim = connectivity.boundary_neighbors[:, 0] >= 0
@@ -57,46 +55,48 @@ def fill_triangles(
 
     def fill_regular(start: int, stop: int) -> None:
         part = regular[start:stop]
-        for place, points in zip(RING, members.near_rows(part, 6), strict=True):
+        for place, points in zip(RING, ring_points.near_rows(part, 6), strict=True):
             builder.set(place, part, points)
 
     blocks.run(fill_regular, len(regular))
-    _fill_rim(builder, members, np.flatnonzero(found & is_rim), is_mean=rule == "MEAN")
+    _fill_rim(builder, ring_points, np.flatnonzero(found & is_rim), is_mean=rule == "MEAN")
     irregular = np.flatnonzero(found & ~is_regular & ~is_rim)
     unserved = irregular
     if rule == "STRAIGHT":
-        unserved = fill_straight(builder, vertices, members, irregular, RING, blocks)
-    fill_mean(builder, members.near, connectivity, unserved, RING)
+        unserved = fill_straight(builder, vertices, ring_points, irregular, RING, blocks)
+    fill_mean(builder, ring_points.near, connectivity, unserved, RING)
     if builder.has(*ACROSS):
-        assert members.far is not None
-        fill_mean(builder, members.far, connectivity, irregular, ACROSS)
+        assert ring_points.far is not None
+        fill_mean(builder, ring_points.far, connectivity, irregular, ACROSS)
         rim = np.flatnonzero(found & is_rim)
         # The outermost two lie on the border or beyond; with three triangles one is left, the lattice's own.
-        set_mirrored(builder, ACROSS[0], rim, inner_means(builder, members.far, connectivity, rim, 3))
-        _fill_across(builder, members, regular)
+        set_mirrored(builder, ACROSS[0], rim, inner_means(builder, ring_points.far, connectivity, rim, 3))
+        _fill_across(builder, ring_points, regular)
 
 
-def _fill_rim(builder: StencilBuilder, members: Members, wanted: NDArray[np.intp], *, is_mean: bool) -> None:
+def _fill_rim(
+    builder: StencilBuilder, ring_points: RingPoints, wanted: NDArray[np.intp], *, is_mean: bool
+) -> None:
     """Fill the taps of manifold boundary vertices.
 
     The boundary neighbors take the first pair. Of the ring between them two points take the next two taps: at
     regular valence the two that are there, else their mean (`is_mean`) or those a third from either end.
     Their mirror images take the taps opposite.
     """
-    connectivity = members.connectivity
-    set_rim_pair(builder, members, wanted, RING[0], RING[3])
+    connectivity = ring_points.connectivity
+    set_rim_pair(builder, ring_points, wanted, RING[0], RING[3])
     inside = connectivity.valence[wanted] - 2
     near = np.maximum((inside + 1) // 3, 1)
-    means = inner_means(builder, members.near, connectivity, wanted, 2)
+    means = inner_means(builder, ring_points.near, connectivity, wanted, 2)
     for place, position in ((RING[1], near), (RING[2], inside + 1 - near)):
-        single = members.near[connectivity.ring_offset[wanted] + np.maximum(position, 0)]
+        single = ring_points.near[connectivity.ring_offset[wanted] + np.maximum(position, 0)]
         takes_mean = (inside > 2) if is_mean else (inside < 1)
         set_mirrored(builder, place, wanted, np.where(takes_mean | (inside < 1), means, single))
 
 
-def _fill_across(builder: StencilBuilder, members: Members, regular: NDArray[np.intp]) -> None:
+def _fill_across(builder: StencilBuilder, ring_points: RingPoints, regular: NDArray[np.intp]) -> None:
     """Fill the taps across ring edges of regular vertices; near a border a missing one is mirrored."""
-    far = members.far_rows(regular, 6)
+    far = ring_points.far_rows(regular, 6)
     for place, own, opposite in ((ACROSS[0], far[1], far[4]), (ACROSS[1], far[4], far[1])):
         if not builder.has(place):
             continue

@@ -19,7 +19,7 @@ from .triangles import RING
 from .walks import Grid, Steps
 
 
-def make_walked_stencil(
+def make_grid_stencil(
     surface: SurfaceMesh, connectivity: Connectivity, boundary: str, bank: FilterBank, level: int
 ) -> Stencil:
     """Choose the points under the masks of a wide or cell-centered bank; see `make_stencil`.
@@ -119,24 +119,16 @@ def _fill_directed(
     for place in builder.row_of:
         if place == (0, 0):
             continue
-        own, is_own = _joined(builder, *walk_to(place))
+        own = builder.add_midpoints(*walk_to(place))
+        is_own = own >= 0
         builder.set(place, sites[is_own], own[is_own])
         missing = np.flatnonzero(~is_own)
         if len(missing):
             one, two = walk_to((-place[0], -place[1]))
-            opposite, is_opposite = _joined(builder, one[missing], two[missing])
+            opposite = builder.add_midpoints(one[missing], two[missing])
+            is_opposite = opposite >= 0
             mirrored = sites[missing[is_opposite]]
             builder.set(place, mirrored, builder.add_mirrored(mirrored, opposite[is_opposite]))
-
-
-def _joined(
-    builder: StencilBuilder, one: NDArray[np.int64], two: NDArray[np.int64]
-) -> tuple[NDArray[np.int32], NDArray[np.bool_]]:
-    """Return the midpoints of two walks' ends, or the one that was found, and whether any was."""
-    points = np.maximum(one, two).astype(np.int32)
-    differ = (one >= 0) & (two >= 0) & (one != two)
-    points[differ] = builder.add_combined(np.stack((one[differ], two[differ])), (0.5, 0.5))
-    return points, points >= 0
 
 
 def _fill_orbit_means(

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cached_property
+from functools import cache, cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -14,11 +14,9 @@ from numpy.typing import DTypeLike, NDArray
 from ..blocks import Blocks
 from ..frames.valence_masks import HarmonicBank, PairwiseBank
 from ..mesh.locality import stable_order
-from ..stencils.members import Members
-from .level import Chunk, Points, Visit
-
-SLOTS_PER_CHUNK = 2**17
-"""Taps that a chunk may hold, so that its arrays stay in the cache at any valence."""
+from ..mesh.ragged import Chunk, Ragged
+from ..stencils.members import RingPoints
+from .level import Bands, Points, Sites, Visit
 
 
 class Neighbors(NamedTuple):
@@ -26,59 +24,46 @@ class Neighbors(NamedTuple):
 
     Attributes
     ----------
-    offset : ndarray of int, shape (N + 1,)
-        The neighbors of site k are `neighbor[offset[k]:offset[k + 1]]`.
-    neighbor : ndarray of int32
-        Sites.
+    rows : Ragged
+        The neighbors of each of N sites, int32.
     is_ordered : ndarray, shape (N,), bool
         Whether they are in ring order.
     is_kept : ndarray, shape (N,), bool
         Sites whose details shrinkage leaves alone.
     """
 
-    offset: NDArray[np.integer]
-    neighbor: NDArray[np.int32]
+    rows: Ragged
     is_ordered: NDArray[np.bool_]
     is_kept: NDArray[np.bool_]
 
 
-def ring_neighbors(members: Members, boundary: str) -> Neighbors:
-    """Return one-rings as neighbors, without members that were not found.
+def ring_neighbors(ring_points: RingPoints, boundary: str) -> Neighbors:
+    """Return one-rings as neighbors, without ring points that were not found.
 
     Unless the boundary is FREE, the one-sided rings of boundary vertices are kept, as shrinking them would
     pull the border inwards.
     """
-    connectivity = members.connectivity
-    owner = np.repeat(np.arange(connectivity.n_vertices), connectivity.valence)
-    is_found = members.near >= 0
-    counts = np.bincount(owner[is_found], minlength=connectivity.n_vertices)
+    connectivity = ring_points.connectivity
     is_ordered = ~connectivity.is_non_manifold
     is_kept = is_ordered & connectivity.is_boundary & (boundary != "FREE")
-    return Neighbors(np.concatenate(([0], np.cumsum(counts))), members.near[is_found], is_ordered, is_kept)
+    rows = Ragged(connectivity.ring_offset, ring_points.near)
+    return Neighbors(rows.kept(ring_points.near >= 0), is_ordered, is_kept)
 
 
-class _Source(NamedTuple):
-    """Vertices, shape (n,), and the places of their taps in the flat list of all taps, shape (count, n)."""
+class _Taps(NamedTuple):
+    """Vertices with the same number K of neighbors, and their taps."""
 
-    vertices: NDArray[np.int32]
-    places: NDArray[np.int32]
+    bank: HarmonicBank | PairwiseBank
+    taps: NDArray[np.int32]
+    """The vertices and their neighbors, shape (K + 1, n)."""
+    place: slice
+    """Where its taps stand in the flat list of all taps."""
+    unpenalized: slice
 
-
-class _Chunk:
-    """Vertices with the same number of neighbors, and their taps."""
-
-    def __init__(
-        self,
-        bank: HarmonicBank | PairwiseBank,
-        taps: NDArray[np.int32],
-        begin: int,
-        unpenalized: slice,
-    ) -> None:
-        self.bank = bank
-        self.unpenalized = unpenalized
-        self.taps = taps  # (K + 1, n)
-        self.vertices = taps[0]
-        self.place = slice(begin, begin + taps.size)  # where its taps stand in the flat list of all taps
+    @property
+    def vertices(self) -> NDArray[np.int32]:
+        """The vertices, shape (n,)."""
+        return self.taps[0]
 
 
 class AdaptiveLevel:
@@ -94,8 +79,6 @@ class AdaptiveLevel:
         Measure m' of this level's coefficients.
     dtype : dtype
         Precision to work in.
-    blocks : Blocks
-        Threads to work on.
     """
 
     def __init__(
@@ -107,19 +90,25 @@ class AdaptiveLevel:
         blocks: Blocks,
     ) -> None:
         self._blocks = blocks.with_block_size(1)
+        self._slots_per_chunk = 4 * blocks.block_size  # so that arrays stay in the cache at any valence
         self._dtype = np.dtype(dtype)
-        self._n = len(neighbors.is_kept)
-        self._chunks = _make_chunks(neighbors, family)
+        self.n_sites = self.n_vertices = len(neighbors.is_kept)
+        self._chunks = _make_chunks(neighbors, family, self._slots_per_chunk)
+        self._n_slots = self._chunks[-1].place.stop
+        self.sites: Sites = [chunk.vertices for chunk in self._chunks]
+        self.chunk_bands = [chunk.bank.n_bands - 1 for chunk in self._chunks]
+        self.n_high = max(self.chunk_bands)
+        self.is_tight = True  # masks that fit the valence are so on every mesh
         self._out_measure = out_measure.astype(self._dtype, copy=False)
         self._is_weighted = bool((out_measure != 1.0).any())
 
     @cached_property
     def measure(self) -> NDArray[np.floating]:
         """The measure m pulled back to this level's input, shape (N,), in the precision of the level."""
-        measure = np.zeros(self._n)
+        measure = np.zeros(self.n_sites)
         for chunk in self._chunks:
             flow = chunk.bank.weights[:, None] * self._out_measure[chunk.vertices]
-            measure += np.bincount(chunk.taps.ravel(), flow.ravel(), self._n)
+            measure += np.bincount(chunk.taps.ravel(), flow.ravel(), self.n_sites)
         return measure.astype(self._dtype)
 
     def prepare(self) -> None:
@@ -127,20 +116,15 @@ class AdaptiveLevel:
         self._sources  # noqa: B018
 
     @cached_property
-    def _sources(self) -> list[_Source]:
-        """Where the taps of each vertex stand, as (vertices, places) of as many taps each."""
+    def _sources(self) -> list[Chunk]:
+        """The places of the taps of each vertex in the flat list of all taps, by as many taps each."""
         taps = np.concatenate([chunk.taps.ravel() for chunk in self._chunks])
-        order = stable_order(taps, self._n)
-        counts = np.bincount(taps, minlength=self._n)
-        begin = np.cumsum(counts) - counts
+        places = Ragged.of_lengths(
+            np.bincount(taps, minlength=self.n_sites), stable_order(taps, self.n_sites)
+        )
         # Every vertex is at least its own tap, so that no count is zero.
-        sources: list[_Source] = []
-        for count in np.unique(counts):
-            group = np.flatnonzero(counts == count).astype(np.int32)
-            size = max(1, SLOTS_PER_CHUNK // int(count))
-            for part in np.split(group, range(size, len(group), size)):
-                sources.append(_Source(part, order[begin[part] + np.arange(count)[:, None]]))
-        return sources
+        vertices = np.arange(self.n_sites, dtype=np.int32)
+        return list(places.chunks(vertices, lambda count: self._slots_per_chunk // count))
 
     def _gathered(self, slots: NDArray[np.floating]) -> Points:
         """Sum values of all taps, shape (C, slots), to the vertices under them, and divide by the measure."""
@@ -148,7 +132,7 @@ class AdaptiveLevel:
 
     def _summed(self, slots: NDArray[np.floating], share: NDArray[np.floating] | None = None) -> Points:
         """Sum values of all taps, shape (C, slots), to the vertices under them, times a share (N,)."""
-        result = np.empty((len(slots), self._n), slots.dtype)
+        result = np.empty((len(slots), self.n_sites), slots.dtype)
         sources = self._sources
 
         def kernel(index: int, _: int) -> None:
@@ -161,46 +145,12 @@ class AdaptiveLevel:
         self._blocks.run(kernel, len(sources))
         return result
 
-    def _taps_of(self, chunk: _Chunk, coefficients: NDArray[np.floating]) -> NDArray[np.floating]:
+    def _taps_of(self, chunk: _Taps, coefficients: NDArray[np.floating]) -> NDArray[np.floating]:
         """Return M' alpha times the measure, shape (3, taps of the chunk)."""
         taps = chunk.bank.apply_transposed(coefficients)
         if self._is_weighted:
             taps *= self._out_measure[chunk.vertices].astype(taps.dtype)
         return taps.reshape(3, -1)
-
-    @property
-    def sites(self) -> Sequence[NDArray[np.integer]]:
-        """For each chunk, its vertices."""
-        return [chunk.vertices for chunk in self._chunks]
-
-    @property
-    def _n_slots(self) -> int:
-        return self._chunks[-1].place.stop
-
-    @property
-    def n_sites(self) -> int:
-        """Number of vertices."""
-        return self._n
-
-    @property
-    def n_vertices(self) -> int:
-        """Number of vertices, which are the sites."""
-        return self._n
-
-    @property
-    def n_high(self) -> int:
-        """Number of high bands at the vertex with the most neighbors."""
-        return max(chunk.bank.n_bands for chunk in self._chunks) - 1
-
-    @property
-    def chunk_bands(self) -> list[int]:
-        """For each chunk, its number of high bands."""
-        return [chunk.bank.n_bands - 1 for chunk in self._chunks]
-
-    @property
-    def is_tight(self) -> bool:
-        """True: masks that fit the valence are tight on every mesh."""
-        return True
 
     def group_starts(self, chunk: int) -> NDArray[np.intp] | None:
         """Return where groups of bands begin that are shrunk as one; see `Level`."""
@@ -243,7 +193,7 @@ class AdaptiveLevel:
         self._blocks.run(kernel, len(self._chunks))
         return result
 
-    def pending(self, chunks: Sequence[Chunk]) -> NDArray[np.floating]:
+    def pending(self, chunks: Sequence[Bands]) -> NDArray[np.floating]:
         """Return what given high bands add to the rebuilt surface; see `Level`."""
         slots = np.empty((3, self._n_slots), self._dtype)
         for chunk, high in zip(self._chunks, chunks, strict=True):
@@ -273,11 +223,11 @@ class AdaptiveLevel:
             result[axis] += self._gathered(slots)[0]
         return result
 
-    def weighted_adjoint(self, next_low: Points, chunks: Sequence[Chunk]) -> Points:
+    def weighted_adjoint(self, next_low: Points, chunks: Sequence[Bands]) -> Points:
         """Apply the adjoint with respect to the measures, which is the inverse."""
         return self.backward(next_low, self.pending(chunks))
 
-    def adjoint(self, next_low: Points, chunks: Sequence[Chunk]) -> Points:
+    def adjoint(self, next_low: Points, chunks: Sequence[Bands]) -> Points:
         """Apply the transposed matrix of this level."""
         slots = np.empty((3, self._n_slots), self._dtype)
         for chunk, high in zip(self._chunks, chunks, strict=True):
@@ -286,29 +236,28 @@ class AdaptiveLevel:
         return self._summed(slots)
 
 
-def _make_bank(
-    family: type[HarmonicBank] | type[PairwiseBank], valence: int, is_ordered: bool
-) -> HarmonicBank | PairwiseBank:
-    """Return the masks of a family for a valence."""
-    return HarmonicBank(valence, is_ordered) if issubclass(family, HarmonicBank) else family(valence)
-
-
-def _make_chunks(neighbors: Neighbors, family: type[HarmonicBank] | type[PairwiseBank]) -> list[_Chunk]:
+def _make_chunks(
+    neighbors: Neighbors, family: type[HarmonicBank] | type[PairwiseBank], slots_per_chunk: int
+) -> list[_Taps]:
     """Sort the sites by the number of neighbors, by whether these are ordered, and by what is kept."""
-    counts = np.diff(neighbors.offset)
-    chunks: list[_Chunk] = []
+
+    @cache
+    def bank_of(valence: int, is_ordered: bool) -> HarmonicBank | PairwiseBank:
+        return HarmonicBank(valence, is_ordered) if issubclass(family, HarmonicBank) else family(valence)
+
+    chunks: list[_Taps] = []
     begin = 0
     for is_ordered in (True, False):
         for is_kept in (False, True):
             kind = (neighbors.is_ordered == is_ordered) & (neighbors.is_kept == is_kept)
-            for count in np.unique(counts[kind]):
-                bank = _make_bank(family, int(count), is_ordered)
-                group = np.flatnonzero(kind & (counts == count)).astype(np.int32)
-                size = max(1, SLOTS_PER_CHUNK // bank.n_bands)
-                for part in np.split(group, range(size, len(group), size)):
-                    taps = np.empty((count + 1, len(part)), np.int32)
-                    taps[0] = part
-                    taps[1:] = neighbors.neighbor[neighbors.offset[part] + np.arange(count)[:, None]]
-                    chunks.append(_Chunk(bank, taps, begin, slice(None) if is_kept else bank.unpenalized))
-                    begin += taps.size
+            sites = np.flatnonzero(kind).astype(np.int32)
+
+            def at_once(valence: int, is_ordered: bool = is_ordered) -> int:
+                return slots_per_chunk // bank_of(valence, is_ordered).n_bands
+
+            for rows, items in neighbors.rows.chunks(sites, at_once):
+                bank, taps = bank_of(len(items), is_ordered), np.concatenate((rows[None], items))
+                place = slice(begin, begin + taps.size)
+                chunks.append(_Taps(bank, taps, place, slice(None) if is_kept else bank.unpenalized))
+                begin = place.stop
     return chunks

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from .level import Chunk
+from .level import Bands
 
 if TYPE_CHECKING:
     from .frame_transform import FrameTransform
@@ -32,7 +32,7 @@ class FrameCoefficients:
     """
 
     low: NDArray[np.floating]
-    chunks: list[list[Chunk]]
+    chunks: list[list[Bands]]
     transform: FrameTransform
 
     def __iter__(self) -> Iterator[NDArray[np.floating]]:

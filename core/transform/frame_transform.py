@@ -4,17 +4,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
+from ..arguments import as_identifier
 from ..errors import FrameError, MeshError, TooLargeError
 from ..frames import FilterBank
 from ..mesh.connectivity import connect
 from ..mesh.surface_mesh import SurfaceMesh
 from .coefficients import FrameCoefficients
-from .level import Chunk, Level, Points, Visit
+from .level import Bands, Level, Points, Visit
 
 LARGEST_DENSE = 4096
 """Vertices up to which a transform is written out as a matrix."""
@@ -85,13 +86,13 @@ class FrameTransform:
         surface = mesh if isinstance(mesh, SurfaceMesh) else SurfaceMesh.from_faces(*mesh)
         connectivity = connect(surface)
         if isinstance(frame, str):
-            frame = choose_frame(_identifier(frame), connectivity)
+            frame = choose_frame(as_identifier(frame), connectivity)
         made = make_transform(
             surface,
             frame,
-            _identifier(stencil),
+            as_identifier(stencil),
             levels,
-            boundary=_identifier(boundary),
+            boundary=as_identifier(boundary),
             connectivity=connectivity,
             dtype=dtype,
         )
@@ -134,11 +135,11 @@ class FrameTransform:
                 f"The positions have shape {positions.shape}; the transform needs ({self.n_vertices}, 3)."
             )
         low = np.ascontiguousarray(positions.T, self.dtype)
-        chunks: list[list[Chunk]] = []
+        chunks: list[list[Bands]] = []
         for level in self.levels:
-            kept: list[Chunk] = [low] * len(level.sites)
+            kept: list[Bands] = [low] * len(level.sites)
 
-            def keep(index: int, chunk: Chunk, kept: list[Chunk] = kept) -> None:
+            def keep(index: int, chunk: Bands, kept: list[Bands] = kept) -> None:
                 kept[index] = chunk.copy()
 
             low, _ = level.forward(low, keep)
@@ -170,19 +171,13 @@ class FrameTransform:
 
     def synthesize(self, coefficients: FrameCoefficients | Sequence[ArrayLike]) -> NDArray[np.floating]:
         """Rebuild positions, shape (N, 3), from frame coefficients; `synthesize(analyze(S))` is S."""
-        coefficients = self._coefficients(coefficients)
-        low = np.ascontiguousarray(coefficients.low.T, self.dtype)
-        for level, chunks in zip(reversed(self.levels), reversed(coefficients.chunks), strict=True):
-            low = level.backward(low, level.pending(chunks))
-        return np.ascontiguousarray(low.T)
+        return self._upwards(
+            coefficients, lambda level, low, chunks: level.backward(low, level.pending(chunks))
+        )
 
     def adjoint(self, coefficients: FrameCoefficients | Sequence[ArrayLike]) -> NDArray[np.floating]:
         """Apply the adjoint W', the transposed matrix, shape (N, 3): <W S, c> = <S, W' c> in every frame."""
-        coefficients = self._coefficients(coefficients)
-        low = np.ascontiguousarray(coefficients.low.T, self.dtype)
-        for level, chunks in zip(reversed(self.levels), reversed(coefficients.chunks), strict=True):
-            low = level.adjoint(low, chunks)
-        return np.ascontiguousarray(low.T)
+        return self._upwards(coefficients, lambda level, low, chunks: level.adjoint(low, chunks))
 
     def weighted_adjoint(self, coefficients: FrameCoefficients | Sequence[ArrayLike]) -> NDArray[np.floating]:
         """Apply the adjoint with respect to `measures`, shape (N, 3): <W S, c>_m' = <S, W* c>_m.
@@ -190,10 +185,18 @@ class FrameTransform:
         With masks that fit the valence it is the inverse. In other frames all measures are 1, and it is
         the same as `adjoint`.
         """
-        coefficients = self._coefficients(coefficients)
+        return self._upwards(coefficients, lambda level, low, chunks: level.weighted_adjoint(low, chunks))
+
+    def _upwards(
+        self,
+        given: FrameCoefficients | Sequence[ArrayLike],
+        step: Callable[[Level, Points, Sequence[Bands]], Points],
+    ) -> NDArray[np.floating]:
+        """Go from the coarsest level to the finest by `step(level, low, high bands)`; return shape (N, 3)."""
+        coefficients = self._coefficients(given)
         low = np.ascontiguousarray(coefficients.low.T, self.dtype)
         for level, chunks in zip(reversed(self.levels), reversed(coefficients.chunks), strict=True):
-            low = level.weighted_adjoint(low, chunks)
+            low = step(level, low, chunks)
         return np.ascontiguousarray(low.T)
 
     def to_dense(self) -> NDArray[np.float64]:
@@ -289,8 +292,3 @@ class FrameTransform:
             change = level.backward(change, waiting.pop())
         assert change is not None
         return change
-
-
-def _identifier(word: str) -> str:
-    """Return a word as choices are called, as ``"LINEAR_SPLINE"`` for ``"linear-spline"``."""
-    return word.upper().replace("-", "_")

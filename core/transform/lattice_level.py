@@ -13,9 +13,9 @@ from numpy.typing import DTypeLike, NDArray
 from ..blocks import Blocks
 from ..errors import FrameError
 from ..frames import FilterBank
-from ..frames.mask_product import MaskProduct
+from ..frames.mask_product import apply_matrix, hadamard_bands, is_hadamard
 from ..stencils import Stencil
-from .level import Chunk, Points, Visit
+from .level import Bands, Points, Sites, Visit
 
 TAPS_PER_BLOCK = 2**18
 """Taps that a block may hold, so that the arrays of wide masks stay in the cache too."""
@@ -49,8 +49,6 @@ class LatticeLevel:
         The masks.
     dtype : dtype
         Precision to work in.
-    blocks : Blocks
-        Threads to work on.
     bands : ndarray of int, optional
         Bands to compute, the low-pass first; all by default.
     is_dilated : bool
@@ -73,13 +71,17 @@ class LatticeLevel:
         blocks = blocks.with_block_size(min(blocks.block_size, _block_size(stencil.n_taps)))
         self._blocks = blocks
         self._masks = bank.masks[bands]
-        self._product = MaskProduct(self._masks, dtype)
+        self._typed_masks = self._masks.astype(dtype)
+        self._is_hadamard = stencil.is_vertex_centered and is_hadamard(self._masks)
         self._rows = bank.reconstruction[:, bands].astype(dtype)
-        starts = range(0, stencil.n_sites, blocks.block_size)
-        self.sites = [slice(start, min(start + blocks.block_size, stencil.n_sites)) for start in starts]
+        self.n_sites, self.n_vertices = stencil.n_sites, stencil.n_vertices
+        starts = range(0, self.n_sites, blocks.block_size)
+        self.sites: Sites = [slice(start, min(start + blocks.block_size, self.n_sites)) for start in starts]
+        self.n_high = len(self._masks) - 1
+        self.chunk_bands = [self.n_high] * len(self.sites)
         self._dtype = np.dtype(dtype)
         self._scratch = _Scratch()
-        self._is_tight = (
+        self.is_tight = (
             stencil.is_vertex_centered
             and bank.is_tight
             and len(bands) == bank.n_bands
@@ -87,31 +89,6 @@ class LatticeLevel:
             and not is_dilated  # on a curved surface dilated stencils are no shifts of each other
         )
         self._incidence = None if stencil.is_vertex_centered else _Incidence(stencil, len(self._rows), dtype)
-
-    @property
-    def n_sites(self) -> int:
-        """Number of sites."""
-        return self.stencil.n_sites
-
-    @property
-    def n_vertices(self) -> int:
-        """Number of vertices."""
-        return self.stencil.n_vertices
-
-    @property
-    def n_high(self) -> int:
-        """Number of high bands."""
-        return len(self._masks) - 1
-
-    @property
-    def chunk_bands(self) -> list[int]:
-        """For each chunk, its number of high bands."""
-        return [self.n_high] * len(self.sites)
-
-    @property
-    def is_tight(self) -> bool:
-        """Whether all vertices are regular, so that the masks are those of the lattice."""
-        return self._is_tight
 
     def group_starts(self, chunk: int) -> NDArray[np.intp] | None:
         """Return None: every band is shrunk by itself."""
@@ -144,11 +121,11 @@ class LatticeLevel:
 
         def kernel(start: int, stop: int) -> None:
             own_low = None if site_low is None else site_low[:, start:stop]
-            if self._product.is_hadamard and stencil.is_vertex_centered:
+            if self._is_hadamard:
                 rings = stencil.gather_rings(points, start, stop)
-                high = self._product.high_bands(points[:, start:stop], rings, own_low)
+                high = hadamard_bands(points[:, start:stop], rings, own_low)
             else:
-                coefficients = self._product(stencil.gather(points, start, stop))
+                coefficients = apply_matrix(self._typed_masks, stencil.gather(points, start, stop))
                 if own_low is not None:
                     own_low[:] = coefficients[:, 0]
                 high = coefficients[:, 1:]
@@ -163,14 +140,14 @@ class LatticeLevel:
             detail
         )
 
-    def pending(self, chunks: Sequence[Chunk]) -> NDArray[np.floating]:
+    def pending(self, chunks: Sequence[Bands]) -> NDArray[np.floating]:
         """Return what given high bands add to the rebuilt surface; see `Level`."""
         detail = np.empty((len(self._rows), 3, self.n_sites), self._dtype)
         for part, chunk in zip(self.sites, chunks, strict=True):
             self._weigh(chunk, detail[:, :, part])
         return detail[0] if self._incidence is None else self._incidence.mean(detail)
 
-    def _weigh(self, high: Chunk, out: NDArray[np.floating]) -> None:
+    def _weigh(self, high: Bands, out: NDArray[np.floating]) -> None:
         """Write the sums of v times the high bands, shape (rows, 3, n)."""
         for row, total in zip(self._rows[:, 1:], out, strict=True):
             used = np.flatnonzero(row)
@@ -184,11 +161,11 @@ class LatticeLevel:
         """Rebuild the surface; see `Level`."""
         return pending if next_low is None else next_low + pending
 
-    def weighted_adjoint(self, next_low: Points, chunks: Sequence[Chunk]) -> Points:
+    def weighted_adjoint(self, next_low: Points, chunks: Sequence[Bands]) -> Points:
         """Apply the transposed matrix: all measures are 1."""
         return self.adjoint(next_low, chunks)
 
-    def adjoint(self, next_low: Points, chunks: Sequence[Chunk]) -> Points:
+    def adjoint(self, next_low: Points, chunks: Sequence[Bands]) -> Points:
         """Apply the transposed matrix of this level.
 
         For cell-centered banks `next_low` is given on vertices like everywhere, and goes back through the

@@ -13,11 +13,14 @@ from numpy.typing import NDArray
 Points = NDArray[np.floating]
 """Coordinates in rows, shape (3, N)."""
 
-Chunk = NDArray[np.floating]
+Bands = NDArray[np.floating]
 """High bands of some sites, shape (3, H, n): coordinates, bands, sites."""
 
-Visit = Callable[[int, Chunk], None]
-"""`visit(i, chunk)` is called for the high bands of chunk i, on any thread, and may change them in place."""
+Sites = Sequence[NDArray[np.integer] | slice]
+"""Which sites each chunk of a level holds."""
+
+Visit = Callable[[int, Bands], None]
+"""`visit(i, bands)` is called for the high bands of chunk i, on any thread, and may change them in place."""
 
 
 class Level(Protocol):
@@ -25,37 +28,27 @@ class Level(Protocol):
 
     The sites of a level fall into chunks: blocks of vertices or cells that have the same bands. Work is done
     chunk by chunk, so that coefficients which nobody asked for never leave the cache.
+
+    Attributes
+    ----------
+    sites : sequence of ndarray or slice
+        For each chunk, which sites it holds.
+    n_sites, n_vertices : int
+        Number of sites, which are vertices or cells, and of vertices.
+    n_high : int
+        Number of high bands, where it differs the largest.
+    chunk_bands : list of int
+        For each chunk, its number of high bands.
+    is_tight : bool
+        Whether the level is known to keep energy with respect to its measures.
     """
 
-    @property
-    def sites(self) -> Sequence[NDArray[np.integer] | slice]:
-        """For each chunk, which sites it holds."""
-        ...
-
-    @property
-    def n_sites(self) -> int:
-        """Number of sites: vertices or cells."""
-        ...
-
-    @property
-    def n_vertices(self) -> int:
-        """Number of vertices."""
-        ...
-
-    @property
-    def n_high(self) -> int:
-        """Number of high bands, where it differs the largest."""
-        ...
-
-    @property
-    def chunk_bands(self) -> Sequence[int]:
-        """For each chunk, its number of high bands."""
-        ...
-
-    @property
-    def is_tight(self) -> bool:
-        """Whether the level is known to keep energy with respect to its measures."""
-        ...
+    sites: Sites
+    n_sites: int
+    n_vertices: int
+    n_high: int
+    chunk_bands: list[int]
+    is_tight: bool
 
     def group_starts(self, chunk: int) -> NDArray[np.intp] | None:
         """Return where groups of bands begin that vector shrinkage treats as one; None for single bands."""
@@ -89,7 +82,7 @@ class Level(Protocol):
         """
         ...
 
-    def pending(self, chunks: Sequence[Chunk]) -> NDArray[np.floating]:
+    def pending(self, chunks: Sequence[Bands]) -> NDArray[np.floating]:
         """Return what given high bands add to the rebuilt surface."""
         ...
 
@@ -97,10 +90,10 @@ class Level(Protocol):
         """Rebuild `low`, shape (3, N), from the low-pass of this level, or none, and pending high bands."""
         ...
 
-    def adjoint(self, next_low: Points, chunks: Sequence[Chunk]) -> Points:
+    def adjoint(self, next_low: Points, chunks: Sequence[Bands]) -> Points:
         """Apply the transposed matrix of the level to its low-pass and high bands."""
         ...
 
-    def weighted_adjoint(self, next_low: Points, chunks: Sequence[Chunk]) -> Points:
+    def weighted_adjoint(self, next_low: Points, chunks: Sequence[Bands]) -> Points:
         """Apply the adjoint with respect to the measures of the level's input and output."""
         ...

@@ -16,11 +16,11 @@ from ..mesh.distance_rings import distance_rings, edge_adjacency, face_adjacency
 from ..mesh.surface_mesh import SurfaceMesh
 from ..stencils import make_stencil
 from ..stencils.dilation import dilate
-from ..stencils.members import one_ring_members
+from ..stencils.members import one_ring_points
 from .adaptive_level import AdaptiveLevel, Neighbors, ring_neighbors
 from .frame_transform import FrameTransform
 from .lattice_level import LatticeLevel
-from .level import Chunk
+from .level import Bands
 
 
 def make_transform(
@@ -51,16 +51,10 @@ def make_transform(
         See `make_stencil`.
     connectivity : Connectivity, optional
         Neighborhoods, if they are known already.
-    blocks : Blocks, optional
-        Threads to work on.
     dtype : dtype
         Precision of the transform.
     only_used_bands : bool
         Leave out the bands that never reach the surface (Remark 4.1).
-
-    Returns
-    -------
-    FrameTransform
 
     Raises
     ------
@@ -118,22 +112,22 @@ def _adaptive_transform(
     dtype: np.dtype,
 ) -> FrameTransform:
     """Choose the neighbors of every level, then pull the measures back from the coarsest."""
-    members = one_ring_members(connectivity)
+    ring_points = one_ring_points(connectivity)
     adjacency = edge_adjacency(connectivity)
     one = np.ones(surface.n_vertices)
     low = surface
     neighbors: list[Neighbors] = []
     for index in range(levels):
-        dilated = dilate(members, low.vertices, adjacency, index, 1, blocks)
+        dilated = dilate(ring_points, low.vertices, adjacency, index, 1, blocks)
         neighbors.append(ring_neighbors(dilated, boundary))
-        _check_reached(index, not index or len(neighbors[-1].neighbor) > 0)
+        _check_reached(index, not index or len(neighbors[-1].rows.items) > 0)
         if index + 1 < levels:
             level = AdaptiveLevel(neighbors[-1], family, one, dtype, blocks)
             points = np.ascontiguousarray(low.vertices.T, dtype)
             low = low.with_vertices(np.ascontiguousarray(level.low_pass(points).T))
     measure: NDArray[np.floating] = one
     stages: list[AdaptiveLevel] = []
-    del members, dilated, low
+    del ring_points, dilated, low
     while neighbors:
         level = AdaptiveLevel(neighbors.pop(), family, measure, dtype, blocks)
         stages.insert(0, level)
@@ -142,7 +136,7 @@ def _adaptive_transform(
     return FrameTransform.of_levels(tuple(stages), dtype, name)
 
 
-def _ignore(_: int, __: Chunk) -> None:
+def _ignore(_: int, __: Bands) -> None:
     """Do nothing with the high bands of a chunk."""
 
 

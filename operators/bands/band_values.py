@@ -52,12 +52,15 @@ class BandValues(NamedTuple):
 class ColorRange(NamedTuple):
     """The values that colors cover: from -limit, or 0 without a sign, to limit, in scene units.
 
-    `largest` is the largest magnitude of all values, and `share`, 0 to 1, says how many are within.
+    `largest` is the largest magnitude of all values, and `share`, 0 to 1, says how many are within. Values up
+    to `tolerance` are green, if it is not 0, and `green` says how many are.
     """
 
     limit: float
     largest: float
     share: float
+    tolerance: float = 0.0
+    green: float = 0.0
 
 
 def choose_values(obj: bpy.types.Object, choice: BandChoice) -> BandValues:

@@ -29,7 +29,7 @@ class Begun:
         found: set[str] = set()
         with suppress(OSError), self._path.open("rb") as file:
             for line in file:
-                with suppress(ValueError):  # cut off
+                with suppress(ValueError, RecursionError):  # cut off
                     found.add(str(json.loads(line)))
         return found
 

@@ -13,6 +13,15 @@ from typing import NamedTuple
 from ...core.errors import FrameletError
 
 
+class ReportError(FrameletError):
+    """The report cannot be written, so that the run ends; what was done before is in it, and stays."""
+
+    def __init__(self, path: Path | str, error: OSError) -> None:
+        super().__init__(
+            f"{path} cannot be written: {error.strerror or error}; the run ends here, and a rerun goes on."
+        )
+
+
 class PlanError(FrameletError):
     """What is asked of a batch contradicts itself, in one sentence for people."""
 

@@ -14,7 +14,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-from .inputs import PlanError
+from .inputs import PlanError, ReportError
 
 
 class ReportLock:
@@ -31,6 +31,8 @@ class ReportLock:
     ------
     PlanError
         If another run has it.
+    ReportError
+        If it cannot be written.
     """
 
     def __init__(self, path: Path) -> None:
@@ -41,7 +43,7 @@ class ReportLock:
         try:
             self._file = self.path.open("a+", encoding="utf-8")
         except OSError as error:
-            raise PlanError(f"{self.path} cannot be written: {error.strerror or error}.") from error
+            raise ReportError(self.path, error) from error
         try:
             _lock(self._file)
         except OSError as error:
@@ -82,5 +84,5 @@ def _owner(path: Path) -> str:
         owner = json.loads(path.read_text("utf-8"))
         age = max(0.0, time.time() - owner["since"])
         return f"process {owner['pid']} on {owner['host']}, since {age:,.0f} s"
-    except (OSError, ValueError, KeyError, TypeError):
+    except (OSError, ValueError, RecursionError, KeyError, TypeError):
         return "another run"

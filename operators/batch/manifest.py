@@ -85,7 +85,7 @@ def _json_rows(text: str, path: Path) -> list[tuple[str, dict[str, object]]]:
             continue
         try:
             values = json.loads(line)
-        except ValueError as error:
+        except (ValueError, RecursionError) as error:  # the second where it is nested too deep
             raise PlanError(f"{path}, line {number}, is no JSON: {error}.") from error
         if not isinstance(values, dict):
             raise PlanError(f"{path}, line {number}, is no JSON object; write one a line.")

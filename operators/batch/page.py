@@ -11,7 +11,7 @@ from typing import Any
 
 from .progress import duration
 from .rows import DONE
-from .summary import Look, by_need, noise_of
+from .summary import Look, by_need, defects_of, noise_of
 
 _STYLE = """
 body { font: 15px/1.45 system-ui, sans-serif; margin: 2rem auto; max-width: 72rem; padding: 0 1rem;
@@ -94,6 +94,7 @@ def _facts(row: dict[str, Any]) -> list[tuple[str, str]]:
     return [
         *facts,
         ("Size", f"{row['n_vertices']:,} vertices, {row['n_faces']:,} faces"),
+        ("Defects", defects_of(row) or "none"),
         ("Noise", "not measured" if noise is None else f"{noise:.3g} edges"),
         ("Moved", f"{row['displacement_rms']:.4g} rms, {row['displacement_max']:.4g} at most "
                   f"({row['displacement_max_edges']:.3g} edges)"),

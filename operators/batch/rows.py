@@ -11,7 +11,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-from .inputs import PlanError
+from .inputs import PlanError, ReportError
 from .task import Task, hash_of
 
 DONE, FAILED = "done", "failed"
@@ -32,7 +32,7 @@ class RowFile:
         try:
             self._number = os.open(path, os.O_RDWR | os.O_CREAT | os.O_APPEND | _BINARY, 0o666)
         except OSError as error:
-            raise PlanError(f"{path} cannot be written: {error.strerror or error}.") from error
+            raise ReportError(path, error) from error
         self._mend()
 
     def _mend(self) -> None:
@@ -40,19 +40,23 @@ class RowFile:
         size = os.fstat(self._number).st_size
         os.lseek(self._number, max(size - 1, 0), os.SEEK_SET)
         if size and os.read(self._number, 1) != b"\n":
-            os.write(self._number, b"\n")
+            self._write(b"\n")
 
     def append(self, row: dict[str, Any]) -> None:
         """Append a row, and see that it reaches the disk."""
         # A name that is not UTF-8 is an escape that JSON knows.
         text = json.dumps(row, ensure_ascii=True, allow_nan=False) + "\n"
-        data = memoryview(text.encode("ascii"))
+        self._write(text.encode("ascii"))
+
+    def _write(self, content: bytes) -> None:
+        """Write at the end, to the disk."""
+        data = memoryview(content)
         try:
             while data:
                 data = data[os.write(self._number, data) :]
             os.fsync(self._number)
         except OSError as error:
-            raise PlanError(f"{self.path} cannot be written: {error.strerror or error}.") from error
+            raise ReportError(self.path, error) from error
 
     def __enter__(self) -> RowFile:
         return self
@@ -95,7 +99,7 @@ def _row(line: bytes) -> dict[str, Any] | None:
     """Return a row, if a line is one."""
     try:
         row = json.loads(line)
-    except ValueError:
+    except (ValueError, RecursionError):
         return None
     kinds = {"output": str, "status": str, "ended": int | float}
     is_row = isinstance(row, dict) and all(isinstance(row.get(key), kind) for key, kind in kinds.items())
@@ -103,11 +107,22 @@ def _row(line: bytes) -> dict[str, Any] | None:
 
 
 def is_done(task: Task, row: dict[str, Any] | None) -> bool:
-    """Return whether the row says that the task was done, and input, settings and result are as it says."""
+    """Return whether the row says that the task was done, and input, settings and result are as it says.
+
+    What they refer to, as materials and buffers, counts as well.
+    """
     return (
         row is not None
         and row["status"] == DONE
         and row.get("key") == task.key
         and row.get("input_sha256") == hash_of(task.source) is not None
         and row.get("output_sha256") == hash_of(task.target)
+        and _are_as_known(task.source, row.get("beside_input"))
+        and _are_as_known(task.target, row.get("beside_output"))
     )
+
+
+def _are_as_known(path: str, beside: Any) -> bool:
+    """Return whether files beside a file have the hashes in a row; a hash of None stands for no file."""
+    folder = Path(path).parent
+    return all(hash_of(folder / name) == known for name, known in (beside or {}).items())

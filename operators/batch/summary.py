@@ -129,6 +129,23 @@ def noise_of(row: dict[str, Any]) -> float | None:
     return max((each["sigma_edges"] for each in row.get("noise", ()) if each), default=None)
 
 
+def defects_of(row: dict[str, Any]) -> str:
+    """Return the defects of the input of a row for people.
+
+    Examples
+    --------
+    >>> defects_of({"defects": [{"kind": "double faces", "count": 1200, "of": "face", "first": [5, 9]}]})
+    '1,200 double faces (faces 5, 9, ...)'
+    """
+    parts = []
+    for defect in row.get("defects") or ():
+        first = ", ".join(map(str, defect["first"]))
+        more = ", ..." if defect["count"] > len(defect["first"]) else ""
+        where = {"face": "faces", "vertex": "vertices"}.get(defect.get("of", ""), "")
+        parts.append(f"{defect['count']:,} {defect['kind']}" + (f" ({where} {first}{more})" if first else ""))
+    return "; ".join(parts)
+
+
 COLUMNS: tuple[tuple[str, Callable[[dict[str, Any]], Any]], ...] = (
     *((name, lambda row, name=name: row.get(name)) for name in ("status", "input", "output", "error")),
     ("look", lambda row: "; ".join(look_of(row).reasons)),
@@ -137,9 +154,10 @@ COLUMNS: tuple[tuple[str, Callable[[dict[str, Any]], Any]], ...] = (
         for name in (
             "preset", "n_objects", "n_vertices", "n_faces", "n_moved", "displacement_rms", "displacement_max",
             "displacement_max_edges", "folded_faces_before", "folded_faces", "turned_faces", "volume_change",
-            "attempts", "peak_bytes", "framelet", "blender", "input_sha256", "output_sha256",
+            "peak_bytes", "framelet", "blender", "input_sha256", "output_sha256",
         )
     ),
+    ("defects", lambda row: defects_of(row)),
     ("noise_edges", lambda row: noise_of(row)),
     ("seconds", lambda row: sum(row.get("seconds", {}).values())),
 )  # fmt: skip

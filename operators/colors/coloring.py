@@ -42,6 +42,7 @@ def color_objects(
     limit: float,
     name: str = band_storage.COLORS,
     domain: str = "POINT",
+    tolerance: float = 0.0,
 ) -> ColorRange:
     """Write the colors of values to the meshes of their objects.
 
@@ -55,15 +56,20 @@ def color_objects(
         The value of the last color.
     name, domain : str
         See `band_storage.write_colors`.
+    tolerance : float
+        Values of at most this magnitude are green; 0 for none. The range is at least as large.
     """
     import numpy as np
 
     from .colormaps import DIVERGING, SEQUENTIAL, map_colors
 
+    limit = max(limit, tolerance)
     # Where nothing differs from zero everything takes the color of zero.
     scale = 1.0 / limit if limit > 0.0 else 0.0
+    within = tolerance * scale if tolerance > 0.0 else None
     colormap = DIVERGING if is_signed else SEQUENTIAL
     for obj, values in found:
-        band_storage.write_colors(obj.data, map_colors(colormap, values * scale), name, domain)
+        band_storage.write_colors(obj.data, map_colors(colormap, values * scale, within), name, domain)
     magnitudes = np.abs(np.concatenate([values for _, values in found]))
-    return ColorRange(limit, float(magnitudes.max()), float((magnitudes <= limit).mean()))
+    shares = [float((magnitudes <= each).mean()) for each in (limit, tolerance)]
+    return ColorRange(limit, float(magnitudes.max()), shares[0], tolerance, shares[1] if tolerance else 0.0)

@@ -56,6 +56,9 @@ SEQUENTIAL = Colormap(
 )
 """Light gray through orange to dark violet: for magnitudes."""
 
+WITHIN = (0.72, 0.16, 150.0)
+"""Green, which is in neither map: for values within a tolerance."""
+
 _LAB_TO_CUBE_ROOTS = np.array(
     [
         [1.0, 0.3963377774, 0.2158037573],
@@ -72,7 +75,7 @@ _CONES_TO_LINEAR = np.array(
 )
 
 
-def map_colors(colormap: Colormap, values: ArrayLike) -> NDArray[np.float32]:
+def map_colors(colormap: Colormap, values: ArrayLike, tolerance: float | None = None) -> NDArray[np.float32]:
     """Return the colors of values.
 
     Parameters
@@ -81,16 +84,21 @@ def map_colors(colormap: Colormap, values: ArrayLike) -> NDArray[np.float32]:
         Which colors.
     values : array_like, shape (N,)
         From `colormap.low` to `colormap.high`; values beyond take the color of the end.
+    tolerance : float, optional
+        Values of at most this magnitude are green.
 
     Returns
     -------
     ndarray, shape (N, 4), float32
         Scene-linear red, green, blue (Rec. 709), from 0 to 1, and alpha 1.
     """
-    lightness, chroma, hue = np.array(colormap.anchors).T
+    values = np.asarray(values, np.float64)
+    lightness, chroma, hue = np.array((*colormap.anchors, WITHIN)).T
     anchors = np.stack((lightness, chroma * np.cos(np.radians(hue)), chroma * np.sin(np.radians(hue))))
-    places = np.linspace(colormap.low, colormap.high, len(lightness))
-    lab = np.stack([np.interp(np.asarray(values, np.float64), places, row) for row in anchors], axis=-1)
+    places = np.linspace(colormap.low, colormap.high, len(colormap.anchors))
+    lab = np.stack([np.interp(values, places, row[:-1]) for row in anchors], axis=-1)
+    if tolerance is not None:
+        lab[np.abs(values) <= tolerance] = anchors[:, -1]
     colors = np.ones((len(lab), 4), np.float32)
     colors[:, :3] = np.clip(lab_to_linear(lab), 0.0, 1.0)
     return colors

@@ -15,9 +15,22 @@ from ..mesh_io.band_storage import NOISE, NOISE_WIDTH
 from ..properties.band_settings import RangeMixin
 from .heat_values import QUANTITIES
 
-HEAT_NAMES = ("range_rule", "percentile", "limit", "limit_angle", "limit_edges")
+HEAT_NAMES = (
+    "range_rule",
+    "percentile",
+    "limit",
+    "limit_angle",
+    "limit_edges",
+    "tolerance",
+    "tolerance_angle",
+)
 LIMITS = {"LENGTH": "limit", "ANGLE": "limit_angle", "EDGES": "limit_edges"}
 """The properties that hold a limit of one's own, by unit."""
+
+TOLERANCES = {"LENGTH": "tolerance", "ANGLE": "tolerance_angle"}
+"""The properties that hold what is small enough, by unit."""
+
+_TOLERANCE_WORDS = "What is at most this far off is green, in {}: larger makes more green; 0 leaves green out"
 
 
 class HeatMixin(RangeMixin):
@@ -66,11 +79,34 @@ class HeatMixin(RangeMixin):
         options=set(),
     )
 
+    tolerance: FloatProperty(
+        name="Tolerance",
+        description=_TOLERANCE_WORDS.format("scene units"),
+        default=0.0,
+        min=0.0,
+        soft_max=1.0,
+        unit="LENGTH",
+        precision=5,
+        step=1,
+        options=set(),
+    )
+    tolerance_angle: FloatProperty(
+        name="Tolerance",
+        description=_TOLERANCE_WORDS.format("degrees"),
+        default=0.0,
+        min=0.0,
+        max=pi,
+        subtype="ANGLE",
+        options=set(),
+    )
+
 
 def shown_heat_names(properties: Any, quantity: str) -> tuple[str, ...]:
     """Return the names of a `HeatMixin` that count with its present range and a quantity."""
-    more = {"PERCENTILE": "percentile", "FIXED": LIMITS[QUANTITIES[quantity].unit]}
-    return tuple(name for name in HEAT_NAMES if name in ("range_rule", more.get(properties.range_rule)))
+    unit = QUANTITIES[quantity].unit
+    more = {"PERCENTILE": "percentile", "FIXED": LIMITS[unit]}
+    shown = ("range_rule", more.get(properties.range_rule), TOLERANCES.get(unit))
+    return tuple(name for name in HEAT_NAMES if name in shown)
 
 
 class FrameletHeatMap(HeatMixin, bpy.types.PropertyGroup):

@@ -7,23 +7,22 @@ from __future__ import annotations
 import argparse
 import os
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any
 
 from ..batch.begun import Begun
-from ..batch.inputs import PlanError
+from ..batch.inputs import PlanError, ReportError
 from ..batch.lock import ReportLock
-from ..batch.progress import TimeLeft
 from ..batch.rows import DONE, RowFile, read_rows
 from ..batch.task import Task
-from ..batch.workers import THREADS, Workers
 from ..files.safe_write import remove_leftovers
 from .arguments import HelpFormatter
 from .batch_arguments import add_batch_arguments
 from .batch_plan import left_to_do, plan, reports_of, without_foreign
-from .messages import FAILURE, USAGE_ERROR, CommandError, Messages, complain
+from .batch_progress import BatchProgress
+from .messages import FAILURE, USAGE_ERROR, CommandError, Messages
 
 
 def add_command(subparsers: argparse._SubParsersAction) -> None:
@@ -74,9 +73,13 @@ def run(arguments: argparse.Namespace) -> None:
             begun = Begun(reports[0])
             undone = [without_foreign(task, rows, begun.names(), arguments) for task in undone]
             begun.add(task.name for task in undone if not task.error and not os.path.lexists(task.target))
-            for folder in {Path(task.target).parent for task in tasks}:
+            folders = {Path(task.target).parent for task in tasks}
+            for folder in folders:
                 remove_leftovers(folder)
-            failed = _work(undone, len(tasks), stack.enter_context(RowFile(reports[0])), arguments, messages)
+            jobs = [_job(task, rows) for task in undone]
+            failed = _work(jobs, len(tasks), stack.enter_context(RowFile(reports[0])), arguments, messages)
+            for folder in folders:
+                remove_leftovers(folder)  # of processes that died
             if not failed:
                 begun.forget()
     if failed:
@@ -84,25 +87,36 @@ def run(arguments: argparse.Namespace) -> None:
         raise CommandError(f"{files} of {len(tasks):,} failed; see {reports[0]}.", FAILURE)
 
 
+def _job(task: Task, rows: Mapping[str, dict[str, Any]]) -> dict[str, Any]:
+    """Return what a process is told to do, in plain values."""
+    folder = Path(task.target).parent
+    written = rows.get(task.name, {}).get("beside_output") or {}
+    own = {os.path.normpath(folder / name): known for name, known in written.items()}
+    return {"task": task.as_dict(), "source": task.source, "own": own}
+
+
 def _work(
-    tasks: list[Task], n_all: int, report: RowFile, arguments: argparse.Namespace, messages: Messages
+    jobs: list[dict[str, Any]], n_all: int, report: RowFile, arguments: argparse.Namespace, messages: Messages
 ) -> int:
-    """Work on the tasks, write their rows, and return how many failed."""
+    """Carry out the jobs, write their rows, and return how many failed."""
     from .batch_task import row_of
 
-    if n_all > len(tasks):
-        messages.say(f"{n_all - len(tasks):,} of {n_all:,} files are left as they are.")
-    left, failed = TimeLeft(len(tasks)), 0
-    foreign = {task.name for task in tasks if task.error and task.target}
-    jobs = (task.as_dict() | {"max_bytes": arguments.max_memory} for task in tasks)
-    with _results(jobs, len(tasks), arguments) as results:
+    if n_all > len(jobs):
+        messages.say(f"{n_all - len(jobs):,} of {n_all:,} files are left as they are.")
+    if not jobs:
+        return 0
+    failed = 0
+    with (
+        _results(jobs, arguments, messages) as results,
+        BatchProgress(len(jobs), messages, arguments.verbose) as progress,
+    ):
         for job, found in results:
-            fields = {name: value for name, value in job.items() if name != "max_bytes"}
-            row = row_of(Task(**fields)) | found
-            if row["output"] in foreign:
+            task = Task(**job["task"])
+            row = row_of(task) | found
+            if task.error and task.target:
                 row["is_foreign"] = True
             report.append(row)
-            _say_row(row, left.one_more(), arguments, messages)
+            progress.say(row)
             if row["status"] != DONE:
                 failed += 1
                 if arguments.fail_fast:
@@ -112,32 +126,46 @@ def _work(
 
 @contextmanager
 def _results(
-    jobs: Iterable[dict[str, Any]], number: int, arguments: argparse.Namespace
+    jobs: Sequence[dict[str, Any]], arguments: argparse.Namespace, messages: Messages
 ) -> Iterator[Iterator[tuple[dict[str, Any], dict[str, Any]]]]:
-    """Give the rows of jobs, as they end, from processes here or on other machines."""
-    if arguments.scheduler is not None:
-        from ..farm.dask_farm import results
+    """Give the rows of jobs, as they end: from this process, or from those of Dask."""
+    from ...core.processors import default_threads
+    from .batch_task import carry_out
 
-        with results(list(jobs), arguments.scheduler) as found:
-            yield found
-        return
-    n_workers = max(1, min(arguments.jobs, number))
-    with Workers(n_workers, _environment(n_workers)) as workers:
-        yield workers.run(jobs)
+    limits: dict[str, Any] = {"max_bytes": arguments.max_memory, "n_threads": 0}
+    if arguments.jobs is not None or arguments.scheduler is not None:
+        from ..farm.dask_farm import FarmError, NoDask, of_scheduler, on_this_computer
+
+        try:
+            with ExitStack() as stack:
+                if arguments.scheduler is not None:
+                    limits["n_threads"] = 1
+                    farm = stack.enter_context(of_scheduler(arguments.scheduler))
+                else:
+                    n_processes = min(arguments.jobs, len(jobs))
+                    limits["n_threads"] = max(1, default_threads() // n_processes)
+                    farm = stack.enter_context(on_this_computer(n_processes, _environment()))
+                function = "operators.command_line.batch_task:carry_out"
+                yield farm.results([job | limits for job in jobs], function)
+                return
+        except NoDask as error:
+            if arguments.scheduler is not None:
+                raise CommandError(str(error), USAGE_ERROR) from error
+            messages.warn(f"--jobs has no effect, one file is worked on at a time. {error}")
+        except FarmError as error:
+            raise CommandError(str(error), FAILURE) from error
+    yield ((job, carry_out(job | limits)) for job in jobs)
 
 
-def _environment(n_workers: int) -> dict[str, str]:
-    """Return environment variables by which processes share the cores, and find the Blender they run in."""
-    from ...core.processors import available_cores
+def _environment() -> dict[str, str]:
+    """Return environment variables by which processes find the Blender they run in."""
     from .blender_process import BLENDER
 
-    threads = str(max(1, available_cores() // n_workers))
-    environment = {THREADS: threads}
     bpy = sys.modules.get("bpy")
     binary = getattr(getattr(bpy, "app", None), "binary_path", "")
     if bpy is not None and binary and not getattr(bpy.app, "module", False):
-        environment[BLENDER] = binary
-    return environment
+        return {BLENDER: binary}
+    return {}
 
 
 def _say_plan(undone: list[Task], n_all: int, messages: Messages) -> None:
@@ -150,28 +178,12 @@ def _say_plan(undone: list[Task], n_all: int, messages: Messages) -> None:
     messages.say(f"{len(undone):,} of {n_all:,} files would be worked on.")
 
 
-def _say_row(row: dict[str, Any], where: str, arguments: argparse.Namespace, messages: Messages) -> None:
-    """Say what came of a file."""
-    if row["status"] != DONE:
-        named = "" if row["input"] in row["error"] else f"{row['input']}: "
-        complain(f"{where}: {named}{row['error']}")
-        return
-    seconds = sum(row["seconds"].values())
-    messages.say(
-        f"{where}: {row['output']} in {seconds:.2f} s, {row['n_vertices']:,} vertices, moved by "
-        f"{row['displacement_max_edges']:.2g} edges at most, {row['folded_faces']:,} folded faces."
-    )
-    if arguments.verbose:
-        stages = ", ".join(f"{name} {value:.2f} s" for name, value in row["seconds"].items())
-        messages.say(f"  {stages}")
-        for sentence in row["warnings"]:
-            messages.warn(sentence)
-
-
 @contextmanager
 def _as_usage_errors() -> Iterator[None]:
-    """Turn what contradicts itself in a plan into a usage error."""
+    """Turn what contradicts itself in a plan into a usage error, and a report that fails into a failure."""
     try:
         yield
+    except ReportError as error:
+        raise CommandError(str(error), FAILURE) from error
     except PlanError as error:
         raise CommandError(str(error), USAGE_ERROR) from error

@@ -48,11 +48,17 @@ def add_batch_arguments(parser: argparse.ArgumentParser) -> None:
         "--overwrite", action="store_true", help="do everything anew, and replace files that no batch wrote"
     )
     work = parser.add_argument_group("work")
-    work.add_argument("--jobs", metavar="N", type=_count, default=1, help="files at a time (default: 1)")
-    work.add_argument(
+    workers = work.add_mutually_exclusive_group()
+    workers.add_argument(
+        "--jobs",
+        metavar="N",
+        type=_count,
+        help="work on N files at a time, each in a process of its own, by Dask",
+    )
+    workers.add_argument(
         "--scheduler",
         metavar="tcp://HOST:PORT",
-        help="work on the machines of a Dask scheduler (framelet[farm])",
+        help="work on the machines of a Dask scheduler",
     )
     work.add_argument(
         "--slice", metavar="I/N", type=_slice, help="only part I of N, from 1, with a report of its own"

@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One file of a batch: denoise it, write it, and account for it in a row. Runs in a process of the batch."""
+"""One file of a batch: denoise it, write it, and account for it in a row. Runs in any process."""
 
 from __future__ import annotations
 
+import os
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -11,11 +12,15 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ...core.processors import set_default_threads
 from ...core.settings import DenoiseSettings
 from ..batch.peak_memory import forget_peak, peak_bytes
 from ..batch.rows import DONE, FAILED
 from ..batch.task import Task, hash_of
+from ..files.defects import defects_of
 from ..files.safe_write import Outputs
+from ..files.sidecars import sidecars_of
+from ..machine import available_processors
 from ..properties.region_options import RegionOptions
 from . import explained
 from .denoise import denoise_opened
@@ -62,7 +67,9 @@ def carry_out(job: dict[str, Any]) -> dict[str, Any]:
     Parameters
     ----------
     job : dict
-        The fields of a `Task`, and `max_bytes`, the most memory that the work may take, or None.
+        ``task``, the fields of a `Task`; ``max_bytes``, the most memory that the work may take, or None;
+        ``n_threads``, how many threads it may use, or 0 for as many as there are cores; ``own``, absolute
+        paths and hashes of what an earlier run wrote beside the target.
 
     Returns
     -------
@@ -70,13 +77,14 @@ def carry_out(job: dict[str, Any]) -> dict[str, Any]:
         The row of the report; ``status`` is "done", or "failed" with the sentence in ``error``. No error is
         raised that a file can cause.
     """
-    task = Task(**{name: value for name, value in job.items() if name != "max_bytes"})
+    task = Task(**job["task"])
+    set_default_threads(job["n_threads"] or available_processors())
     messages, stages, row = KeptMessages(), _Stages(), row_of(task)
     forget_peak()
     try:
         if task.error:
             raise CommandError(task.error)
-        row |= _work(task, job.get("max_bytes"), messages, stages)
+        row |= _work(task, job["max_bytes"], job["own"], messages, stages)
         row["status"] = DONE
     except Exception as error:
         row["error"] = _sentence(error, task)
@@ -93,7 +101,6 @@ def row_of(task: Task) -> dict[str, Any]:
         "output": task.name,
         "target": task.target,
         "error": None,
-        "attempts": 1,
         "preset": task.preset,
         "settings": task.settings,
         "region": task.region,
@@ -101,6 +108,8 @@ def row_of(task: Task) -> dict[str, Any]:
         "key": task.key,
         "input_sha256": None,
         "output_sha256": None,
+        "beside_input": {},
+        "beside_output": {},
         "framelet": framelet_version(),
         "blender": None,
         "peak_bytes": None,
@@ -121,7 +130,9 @@ def _sentence(error: Exception, task: Task) -> str:
         return f"{task.source} cannot be worked on ({reason}); the file may be damaged."
 
 
-def _work(task: Task, max_bytes: int | None, messages: KeptMessages, stages: _Stages) -> dict[str, Any]:
+def _work(
+    task: Task, max_bytes: int | None, own: dict[str, str], messages: KeptMessages, stages: _Stages
+) -> dict[str, Any]:
     """Read, denoise and write a file; return what is to be said about it."""
     source, target = Path(task.source), Path(task.target)
     for_blender = needs_blender(source, target)
@@ -136,33 +147,51 @@ def _work(task: Task, max_bytes: int | None, messages: KeptMessages, stages: _St
         found: dict[str, Any] = {"input_sha256": hash_of(source)}
     target.parent.mkdir(parents=True, exist_ok=True)
     with Outputs() as outputs:
-        work = _work_in_blender if for_blender else _work_here
-        found |= work(task, max_bytes, outputs, messages, stages)
+        if for_blender:
+            found |= _work_in_blender(task, outputs, messages, stages)
+        else:
+            found |= _work_here(task, max_bytes, own, outputs, messages, stages)
         with stages("publish"):
-            outputs.publish()
-    found["output_sha256"] = hash_of(target)
+            written = outputs.publish()
+    with stages("hash result"):
+        found["output_sha256"] = hash_of(target)
+        others = {str(path.absolute()) for path in written} - {str(target)}
+        # What was there already and is still the same was not written again.
+        others |= {path for path, known in own.items() if hash_of(path) == known}
+        found["beside_output"] = {
+            os.path.relpath(path, target.parent): hash_of(path) for path in sorted(others)
+        }
     return found
 
 
 def _work_here(
-    task: Task, max_bytes: int | None, outputs: Outputs, messages: KeptMessages, stages: _Stages
+    task: Task,
+    max_bytes: int | None,
+    own: dict[str, str],
+    outputs: Outputs,
+    messages: KeptMessages,
+    stages: _Stages,
 ) -> dict[str, Any]:
     source, options = Path(task.source), RegionOptions(**task.region)
     with stages("read"):
         opened = open_source(source, messages)
+        beside = {name: hash_of(source.parent / name) for name in sidecars_of(opened.file, source)}
     settings = DenoiseSettings(**task.settings)
     _check_memory(opened, settings, max_bytes)
     with stages("denoise"):
         outcome = denoise_opened(opened, settings, options, messages)
     with stages("write"):
-        write_target(opened, Path(task.target), outputs, messages)
+        write_target(opened, Path(task.target), outputs, messages, own)
+    with stages("defects"):
+        defects = defects_of(opened.file)
     entries = [{"name": name, **entry(report)} for name, report in outcome.done]
-    return account(entries, [{"name": name, "reason": reason} for name, reason in outcome.refusals])
+    found = account(entries, [{"name": name, "reason": reason} for name, reason in outcome.refusals])
+    # Vertices where fans of faces meet show in the rings of the engine only.
+    defects += [defect for defect in found["defects"] if defect["kind"] == "non-manifold vertices"]
+    return found | {"beside_input": beside, "defects": defects}
 
 
-def _work_in_blender(
-    task: Task, max_bytes: int | None, outputs: Outputs, messages: KeptMessages, stages: _Stages
-) -> dict[str, Any]:
+def _work_in_blender(task: Task, outputs: Outputs, messages: KeptMessages, stages: _Stages) -> dict[str, Any]:
     from .blender_process import run_in_blender
 
     with stages("blender"):
@@ -180,6 +209,15 @@ def _work_in_blender(
         "blender": found["blender"],
         "peak_bytes": found["peak_bytes"],
     }
+
+
+_COUNTED = {
+    "degenerate faces": ("face", "degenerate_faces_before"),
+    "non-manifold vertices": ("vertex", "non_manifold_vertices"),
+    "open borders": ("vertex", "boundary_vertices"),
+    "loose vertices": ("vertex", "loose_vertices"),
+}
+"""Defects that are known of surfaces of Blender, with names of their counts; of files see `defects_of`."""
 
 
 def account(entries: Sequence[dict[str, Any]], skipped: Sequence[dict[str, str]]) -> dict[str, Any]:
@@ -208,14 +246,11 @@ def account(entries: Sequence[dict[str, Any]], skipped: Sequence[dict[str, str]]
         "n_vertices": n,
         "n_faces": total("n_faces"),
         "n_moved": total("n_moved"),
-        "defects": {
-            "folded_faces": total("folded_faces_before"),
-            "degenerate_faces": total("degenerate_faces_before"),
-            "non_manifold_vertices": total("non_manifold_vertices"),
-            "boundary_vertices": total("boundary_vertices"),
-            "loose_vertices": total("loose_vertices"),
-            "welded_vertices": total("welded_vertices"),
-        },
+        "defects": [
+            {"kind": kind, "count": total(name), "of": of, "first": []}
+            for kind, (of, name) in _COUNTED.items()
+            if total(name)
+        ],
         "folded_faces_before": total("folded_faces_before"),
         "folded_faces": total("folded_faces"),
         "turned_faces": total("flipped_faces"),

@@ -5,13 +5,24 @@
 It ends the process itself, because drivers and importers can leave threads that keep it from ending.
 """
 
+import ctypes
 import importlib.util
 import json
 import os
 import sys
+from contextlib import suppress
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
+_ENDS_WITH_PARENT = 1  # PR_SET_PDEATHSIG
+_SIGKILL = 9
+
+
+def end_with_parent() -> None:
+    """Let the system end this process with the one that started it, so that none goes on unseen."""
+    if sys.platform.startswith("linux"):
+        with suppress(OSError, AttributeError):
+            ctypes.CDLL(None).prctl(_ENDS_WITH_PARENT, _SIGKILL)
 
 
 def work() -> int:
@@ -30,6 +41,7 @@ def work() -> int:
 
 
 if __name__ == "__main__":
+    end_with_parent()
     try:
         code = work()
     finally:

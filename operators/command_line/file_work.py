@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -135,6 +135,8 @@ def region_of(
         if weights is None:
             raise ValueError(f"It has no vertex group ‘{options.vertex_group}’; choose one that it has.")
         weights = weights[part.vertices]
+    if options.face_set:
+        raise ValueError("It has no face sets; leave out --face-set.")
     edge = mean_edge_length(surface) if options.limit == "EDGES" else 0.0
     region = options.region(edge, 1.0, weights, border=border_vertices(surface))
     if opened.file.always_welded and not region.weld_distance:
@@ -160,8 +162,14 @@ def weld_of(opened: OpenedFile, surface: SurfaceMesh) -> Weld | None:
     return weld if weld.n_merged else None
 
 
-def write_target(opened: OpenedFile, target: Path, outputs: Outputs, messages: Messages) -> None:
-    """Write the file, and what belongs to it, into the outputs.
+def write_target(
+    opened: OpenedFile,
+    target: Path,
+    outputs: Outputs,
+    messages: Messages,
+    own: Mapping[str, str] | None = None,
+) -> None:
+    """Write the file, and what belongs to it, into the outputs; of `own` see `write_sidecars`.
 
     Raises
     ------
@@ -183,7 +191,7 @@ def write_target(opened: OpenedFile, target: Path, outputs: Outputs, messages: M
             )
         outputs.write(target, data)
         return
-    for sentence in write_sidecars(opened.file, opened.positions, opened.source, target, outputs):
+    for sentence in write_sidecars(opened.file, opened.positions, opened.source, target, outputs, own or {}):
         messages.warn(sentence)
     if opened.file.has_stale_normals(opened.positions):
         messages.warn(

@@ -37,7 +37,7 @@ def add_region_options(parser: argparse.ArgumentParser) -> None:
             option_name(item),
             dest=item.name,
             type=str if is_text else _number_type(item),
-            metavar="NAME" if is_text else "X",
+            metavar={"str": "NAME", "int": "N"}.get(str(item.type), "X"),
             default=None,
             help=f"{info.label}: {words}",
         )
@@ -68,14 +68,16 @@ def region_options_from(arguments: argparse.Namespace) -> RegionOptions:
     return RegionOptions(**given)
 
 
-def _number_type(item: Field) -> Callable[[str], float]:
+def _number_type(item: Field) -> Callable[[str], int | float]:
     """Return the function that reads the value of a field and checks it."""
 
-    def value_of(text: str) -> float:
+    read, wanted = (int, "a whole number") if item.type == "int" else (float, "a number")
+
+    def value_of(text: str) -> int | float:
         try:
-            value = float(text)
+            value = read(text)
         except ValueError:
-            raise argparse.ArgumentTypeError(f"{text!r} is not a number") from None
+            raise argparse.ArgumentTypeError(f"{text!r} is not {wanted}") from None
         change: dict[str, Any] = {item.name: value}
         try:
             RegionOptions(**change)

@@ -1,3 +1,3 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Batches on many machines: Dask, and a job type for Flamenco."""
+"""Batches in many processes, here and on many machines: Dask, and a job type for Flamenco."""

@@ -35,7 +35,7 @@ const JOB_TYPE = {
       key: "jobs",
       type: "int32",
       default: 1,
-      description: "Files that a worker works on at a time",
+      description: "Files that a worker works on at a time; more than 1 needs Dask in Blender's Python",
     },
     {
       key: "options",
@@ -58,7 +58,8 @@ function compileJob(job) {
     task.addCommand(
       frameletCommand(
         ["batch", "--manifest", settings.manifest, "--out", settings.out]
-          .concat(["--slice", `${number}/${settings.slices}`, "--jobs", `${settings.jobs}`])
+          .concat(["--slice", `${number}/${settings.slices}`])
+          .concat(settings.jobs > 1 ? ["--jobs", `${settings.jobs}`] : [])
           .concat(options),
       ),
     );

@@ -174,6 +174,11 @@ class GltfFile(MeshFile):
         """Return False for vertices that are stored nowhere; see `MeshFile.movable`."""
         return ~self._fixed if self._fixed.any() else None
 
+    def buffer_files(self) -> list[str]:
+        """See `MeshFile.buffer_files`."""
+        uris = [self._uris[number] for number in self._changing_buffers()]
+        return [unquote(uri) for uri in uris if uri and is_file(uri)]
+
     def references(self) -> list[str]:
         """Return the files of images, and the buffers that hold no coordinates."""
         return self._references

@@ -148,6 +148,10 @@ class MeshFile(ABC):
         """Return other files that hold coordinates, by the names by which this file refers to them."""
         return {}
 
+    def buffer_files(self) -> list[str]:
+        """Return the relative paths of other files that hold coordinates."""
+        return []
+
     def references(self) -> list[str]:
         """Return the relative paths of the files that this file refers to and that stay as they are."""
         return []

@@ -4,7 +4,9 @@
 
 from __future__ import annotations
 
+import hashlib
 import os
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 from urllib.parse import quote, unquote
@@ -20,8 +22,30 @@ if TYPE_CHECKING:
 _MAP_WORDS = ("map_", "bump", "disp", "decal", "norm", "refl")
 
 
+def sidecars_of(file: MeshFile, source: Path) -> list[str]:
+    """Return the relative paths of all files that a file refers to, be they there or not.
+
+    Examples
+    --------
+    >>> from framelet.operators.files.obj import ObjFile
+    >>> sidecars_of(ObjFile(b"mtllib red.mtl\nv 0 0 0\n", "point"), Path("/scans/point.obj"))
+    ['red.mtl']
+    """
+    names = file.buffer_files() + [each for name in file.references() for each in _named(name, source.parent)]
+    for name in list(names):
+        if name.lower().endswith(".mtl"):
+            folder = Path(name).parent
+            names += [str(folder / texture) for texture in _textures(source.parent / name)]
+    return list(dict.fromkeys(names))
+
+
 def write_sidecars(
-    file: MeshFile, positions: NDArray[np.floating], source: Path, target: Path, outputs: Outputs
+    file: MeshFile,
+    positions: NDArray[np.floating],
+    source: Path,
+    target: Path,
+    outputs: Outputs,
+    own: Mapping[str, str],
 ) -> list[str]:
     """Write what belongs to a file beside its copy.
 
@@ -35,6 +59,9 @@ def write_sidecars(
         The file that was read and the one that is written.
     outputs : Outputs
         Takes the files.
+    own : mapping of str to str
+        Absolute paths of what was written beside the target before, with their SHA-256: as long as it is
+        that, it may be replaced.
 
     Returns
     -------
@@ -49,18 +76,15 @@ def write_sidecars(
     warnings: list[str] = []
     buffers = file.side_files(positions)
     if isinstance(file, GltfFile) and buffers:
-        file.renames = _new_names(list(buffers), source, target)
+        file.renames = _new_names(buffers, source, target)
         for uri, content in buffers.items():
             outputs.write(target.parent / unquote(file.renames[uri]), content)
     if _same_folder(source, target):
         return warnings
-    names = [each for name in file.references() for each in _named(name, source.parent)]
-    for name in list(names):
-        if name.lower().endswith(".mtl"):
-            folder = Path(name).parent
-            names += [str(folder / texture) for texture in _textures(source.parent / name)]
-    for name in dict.fromkeys(names):
-        warnings += _copy(name, source, target, outputs)
+    held = set(file.buffer_files())
+    for name in sidecars_of(file, source):
+        if name not in held:
+            warnings += _copy(name, source, target, outputs, own)
     return warnings
 
 
@@ -72,18 +96,18 @@ def _named(text: str, folder: Path) -> list[str]:
     return [text]
 
 
-def _new_names(uris: list[str], source: Path, target: Path) -> dict[str, str]:
+def _new_names(buffers: Mapping[str, bytes], source: Path, target: Path) -> dict[str, str]:
     """Return the names of buffers beside the target: their own, or else that of the target."""
     names = {}
-    for number, uri in enumerate(uris, 1):
+    for number, (uri, content) in enumerate(buffers.items(), 1):
         place = target.parent / unquote(uri)
-        own = target.stem if len(uris) == 1 else f"{target.stem}-{number}"
-        if _belongs(place, source, target, uri) or (place.parent.is_dir() and not place.exists()):
+        own = target.stem if len(buffers) == 1 else f"{target.stem}-{number}"
+        if _belongs(place, source, target, uri) or _can_be(place, content, source, uri):
             names[uri] = uri
             continue
         new = quote(own + (Path(unquote(uri)).suffix or ".bin"))
         place = target.parent / unquote(new)
-        if place.exists() and not _belongs(place, source, target, new):
+        if not _belongs(place, source, target, new) and not _can_be(place, content, source, uri):
             raise FileError(
                 f"{place} would be overwritten; move it away, or choose another name for {target}."
             )
@@ -102,7 +126,19 @@ def _belongs(place: Path, source: Path, target: Path, uri: str) -> bool:
         return False
 
 
-def _copy(name: str, source: Path, target: Path, outputs: Outputs) -> list[str]:
+def _can_be(place: Path, content: bytes, source: Path, uri: str) -> bool:
+    """Return whether a place is free, or has this content already, as a run leaves that was killed there."""
+    try:
+        if not place.parent.is_dir() or not place.exists():
+            return place.parent.is_dir()
+        old = source.parent / unquote(uri)
+        is_read = old.exists() and place.samefile(old)
+        return not is_read and place.stat().st_size == len(content) and place.read_bytes() == content
+    except OSError:
+        return False
+
+
+def _copy(name: str, source: Path, target: Path, outputs: Outputs, own: Mapping[str, str]) -> list[str]:
     """Copy a file that is referred to by a relative path; return what is to be said."""
     path = Path(name.replace("\\", "/"))
     if path.is_absolute() or ".." in path.parts or not name:
@@ -113,8 +149,11 @@ def _copy(name: str, source: Path, target: Path, outputs: Outputs) -> list[str]:
         if content is None:
             return []  # as before: the reference leads nowhere
         if new.exists():
-            same = new.is_file() and new.stat().st_size == len(content) and new.read_bytes() == content
-            return [] if same else [f"{new} is another file than {old} and was left alone."]
+            there = new.read_bytes() if new.is_file() else None
+            if there == content:
+                return []
+            if there is None or own.get(str(new.absolute())) != hashlib.sha256(there).hexdigest():
+                return [f"{new} is another file than {old} and was left alone."]
         new.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         return [f"{old} could not be copied: {error.strerror or error}."]

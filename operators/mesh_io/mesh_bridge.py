@@ -228,18 +228,20 @@ def write_vertices(
     if active is None:
         write_positions(mesh, positions)
     else:
-        write_key_points(active, positions)
+        # Nothing is written before everything is there.
+        points = {active.name: positions}
         dependent = dependent_keys(mesh.shape_keys, active)
         if dependent:
             moved = _moved(before, positions)
             offset = positions[moved] - before.vertices[moved]
         for key in dependent:
-            shifted = read_key_points(key)
-            shifted[moved] += offset
-            write_key_points(key, shifted)
-        reference = mesh.shape_keys.reference_key
-        if reference in [active, *dependent]:
-            write_positions(mesh, read_key_points(reference))
+            points[key.name] = read_key_points(key)
+            points[key.name][moved] += offset
+        for name, shifted in points.items():
+            write_key_points(mesh.shape_keys.key_blocks[name], shifted)
+        reference = mesh.shape_keys.reference_key.name
+        if reference in points:
+            write_positions(mesh, points[reference])
     mesh.update()
     mesh.update_tag()  # in Sculpt Mode what is drawn is made again
     return positions

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ..properties.scene_units import linear_part
 from . import mesh_bridge
+from .face_sets import vertices_of_face_set
 
 if TYPE_CHECKING:
     import bpy
@@ -57,6 +58,8 @@ def read_region(obj: bpy.types.Object, options: RegionOptions) -> RegionRead:
     with mesh_bridge.readable_mesh(obj) as mesh:
         surface = mesh_bridge.read_arrays(mesh, None if is_edited else mesh_bridge.active_key(obj))
         movable = _movable(obj, mesh, surface, is_edited, options)
+        if options.face_set:
+            movable = _in_face_set(obj, mesh, surface, options.face_set, movable)
         # In Edit Mode the selection says what moves; a mask is not seen there.
         free = _unmasked(mesh) if options.keep_mask and not is_edited else None
         sharp = _sharp_edges(mesh, surface) if options.keep_sharp else None
@@ -106,6 +109,25 @@ def _movable(
             f"All vertices of ‘{obj.name}’ are hidden; reveal some, or turn off Leave Hidden Alone."
         )
     return ~hidden
+
+
+def _in_face_set(
+    obj: bpy.types.Object,
+    mesh: bpy.types.Mesh,
+    surface: SurfaceMesh,
+    number: int,
+    movable: NDArray[np.bool_] | None,
+) -> NDArray[np.bool_]:
+    """Return which of the vertices that may move are of a face set."""
+    inside = vertices_of_face_set(obj, mesh, surface, number)
+    if movable is None:
+        return inside
+    if not (inside & movable).any():
+        raise ValueError(
+            f"No vertex of face set {number} of ‘{obj.name}’ may move; choose another set, or reveal or "
+            "select some of its vertices."
+        )
+    return inside & movable
 
 
 def _vertices_of_hidden_faces(mesh: bpy.types.Mesh, surface: SurfaceMesh) -> NDArray[np.int32]:

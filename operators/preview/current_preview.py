@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..mesh_io import kept_original
+from ..properties.own_settings import settings_of
 from ..properties.region_values import to_region_options
 from ..properties.setting_values import to_settings
 from ..run.run_display import redraw_sidebars
@@ -28,6 +29,9 @@ _ending: list[PreviewSession] = []
 
 _message = ""
 """What the last preview said when it ended."""
+
+_drawn = (False, "", 0.0)
+"""What sidebars show: whether the preview is current, its message, and how much is done."""
 
 _resumed: Mark | None = None
 
@@ -61,7 +65,8 @@ def start_preview(obj: bpy.types.Object, scene: bpy.types.Scene) -> PreviewSessi
     end_preview()
     current_preview()
     _message = ""
-    _session = begin_preview(obj, to_settings(scene.framelet), to_region_options(scene.framelet))
+    values = settings_of(obj, scene)
+    _session = begin_preview(obj, to_settings(values), to_region_options(values))
     tick_preview()
     if not bpy.app.timers.is_registered(_on_timer):
         bpy.app.timers.register(_on_timer, first_interval=TICK)
@@ -69,19 +74,21 @@ def start_preview(obj: bpy.types.Object, scene: bpy.types.Scene) -> PreviewSessi
 
 
 def tick_preview() -> bool:
-    """Bring the preview up to date with the settings of the scene; return whether it is on.
+    """Bring the preview up to date with the settings of its object; return whether it is on.
 
     While Blender reads meshes to render or bake them the preview stays as it is.
     """
+    global _drawn
     session = current_preview()
     if session is None:
         return False
     if is_mesh_being_read():
         return True
-    was, text = session.is_current, session.message
-    values = bpy.context.scene.framelet
+    values = settings_of(session.find_object(), bpy.context.scene)
     is_on = session.tick(to_settings(values), to_region_options(values))
-    if (session.is_current, session.message) != (was, text) or not is_on:
+    state = (session.is_current, session.message, round(session.fraction, 1))
+    if state != _drawn or not is_on:
+        _drawn = state
         redraw_sidebars()
     return is_on
 

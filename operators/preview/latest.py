@@ -31,11 +31,14 @@ class Latest(Generic[Request, Result]):
     Parameters
     ----------
     compute : callable
-        `compute(request, should_stop)` runs on the thread; it should ask `should_stop()` often, and what it
-        returns once that was True is dropped. It must not touch Blender.
+        `compute(request, should_stop, show)` runs on the thread; it should ask `should_stop()` often, and
+        what it returns once that was True is dropped. `show(result)` gives an answer before the last one. It
+        must not touch Blender.
     """
 
-    def __init__(self, compute: Callable[[Request, Callable[[], bool]], Result]) -> None:
+    def __init__(
+        self, compute: Callable[[Request, Callable[[], bool], Callable[[Result], None]], Result]
+    ) -> None:
         self._compute = compute
         self._changed = Condition()
         self._waiting: list[Request] = []  # one at most
@@ -104,9 +107,14 @@ class Latest(Generic[Request, Result]):
                 is_stopped = is_stopped or self._should_stop()
                 return is_stopped
 
+            def show(result: Result, request: Request = request) -> None:
+                if not should_stop():
+                    with self._changed:
+                        self._answers = [Answer(request, result, None)]
+
             result, error = None, None
             try:
-                result = self._compute(request, should_stop)
+                result = self._compute(request, should_stop, show)
             except Exception as failure:
                 error = failure
             with self._changed:

@@ -24,6 +24,8 @@ from ..run.denoise_object import read_job, write_outcome
 from ..run.denoise_run import Written
 from ..run.output import refusal
 from ..run.run_guard import find_mesh, find_object, mark_of, what_changed
+from ..shortage import reserve_for_writing, shortage_told
+from .drafts import Picture, compute_pictures
 from .latest import Latest
 
 if TYPE_CHECKING:
@@ -55,6 +57,8 @@ class PreviewSession:
         What the object is recognized by.
     message : str
         One sentence if there is nothing to show with these settings, or on why the preview ended.
+    fraction : float
+        How much of what is being computed is done, from 0 to 1.
     """
 
     def __init__(self, obj: bpy.types.Object, job: DenoiseJob, options: RegionOptions) -> None:
@@ -72,7 +76,8 @@ class PreviewSession:
         self._result: NDArray[np.float32] | None = None
         self._inputs: dict[str, object] = {}
         kept_original.keep(obj.data, self._original, self._shown)
-        self._latest: Latest[DenoiseJob, DenoiseOutcome] = Latest(_compute)
+        self.fraction = 0.0
+        self._latest: Latest[DenoiseJob, Picture] = Latest(self._compute)
 
     @property
     def name(self) -> str:
@@ -116,6 +121,14 @@ class PreviewSession:
         """
         if not self.is_on or self._is_suspended:
             return self.is_on
+        try:
+            return self._tick(settings, options)
+        except MemoryError:
+            self.end(f"There is not enough memory for ‘{self.name}’, so that the preview ended.")
+            return False
+
+    def _tick(self, settings: DenoiseSettings, options: RegionOptions) -> bool:
+        """Do so, with the memory that there is."""
         change = what_changed(self.mark, self._job.read)
         if change is not None:
             self.end(f"{change}, so that the preview ended.")
@@ -196,6 +209,8 @@ class PreviewSession:
         if reason is not None:
             raise ValueError(reason)
         outcome = self._outcome[1]
+        with shortage_told(obj.name):
+            reserve_for_writing(obj)
         self.end()
         written = write_outcome(obj, replace(self._outcome[0], output=output), outcome)
         return Written(obj, written.obj, with_amount(outcome.measured, written.amount), written.note)
@@ -255,12 +270,28 @@ class PreviewSession:
             )
         return False
 
-    def _take(self, job: DenoiseJob, outcome: DenoiseOutcome | None, error: Exception | None) -> None:
+    def _compute(
+        self, job: DenoiseJob, should_stop: Callable[[], bool], show: Callable[[Picture], None]
+    ) -> Picture:
+        """Denoise; on the thread."""
+
+        def outcome_of(job: DenoiseJob, callback: Callable[[float, float], bool]) -> DenoiseOutcome:
+            assembly = assemble([job])
+            return assembly.split(compute(assembly.job, callback, should_stop=should_stop))[0]
+
+        def note(fraction: float) -> None:
+            self.fraction = fraction
+
+        with shortage_told(job.name):
+            return compute_pictures(job, outcome_of, show, note)
+
+    def _take(self, job: DenoiseJob, picture: Picture | None, error: Exception | None) -> None:
         """Show an answer of the thread; with an error, the original and a sentence."""
-        if error is None and outcome is not None:
+        if error is None and picture is not None:
             self.message = ""
-            self._outcome = job, outcome
-            self._result = mesh_bridge.with_moved(self._job.surface, outcome.vertices)
+            if picture.is_final:
+                self._outcome = job, picture.outcome
+            self._result = mesh_bridge.with_moved(self._job.surface, picture.outcome.vertices)
             self._show(self._result)
             return
         if not isinstance(error, ValueError):
@@ -288,12 +319,6 @@ class PreviewSession:
         self._shown = positions
 
 
-def _compute(job: DenoiseJob, should_stop: Callable[[], bool]) -> DenoiseOutcome:
-    """Denoise; on the thread."""
-    assembly = assemble([job])
-    return assembly.split(compute(assembly.job, should_stop=should_stop))[0]
-
-
 def begin_preview(obj: bpy.types.Object, settings: DenoiseSettings, options: RegionOptions) -> PreviewSession:
     """Start a preview; `tick` asks for the first result.
 
@@ -304,7 +329,12 @@ def begin_preview(obj: bpy.types.Object, settings: DenoiseSettings, options: Reg
     """
     if obj.mode != "OBJECT":
         raise ValueError(f"‘{obj.name}’: the preview needs Object Mode; leave the mode first.")
-    job = read_job(obj, settings, IN_PLACE, options, from_original=True)
+    with shortage_told(obj.name):
+        job = read_job(obj, settings, IN_PLACE, options, from_original=True)
+    if job.is_level:
+        raise ValueError(
+            f"‘{obj.name}’ has a Multires modifier, of which there is no preview; press Denoise instead."
+        )
     if obj.data.shape_keys is not None:
         raise ValueError(f"‘{obj.name}’ has shape keys, of which there is no preview; press Denoise.")
     n_vertices = job.surface.n_vertices

@@ -12,6 +12,7 @@ from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..mesh_io.band_storage import has_note
+from ..shortage import shortage_told
 from .current_preview import end_preview
 
 MODES = frozenset({"OBJECT", "EDIT_MESH", "SCULPT", "PAINT_VERTEX", "PAINT_WEIGHT", "PAINT_TEXTURE"})
@@ -99,7 +100,8 @@ def run_on_targets(
                 return False
 
             try:
-                results[obj.name] = run(obj, progress)
+                with shortage_told(obj.name):
+                    results[obj.name] = run(obj, progress)
             except ValueError as error:
                 failures.append(str(error))
     finally:

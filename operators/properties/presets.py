@@ -19,6 +19,14 @@ SAVED_NAMES = tuple(name for name in PROPERTY_NAMES if name != "threads")
 after it have the last word."""
 
 
+SHOWN = (
+    "obj = bpy.context.object",
+    "is_own = getattr(getattr(obj, 'framelet', None), 'is_own', False)",
+    "settings = (obj if is_own else bpy.context.scene).framelet",
+)
+"""Lines that find the settings that the sidebar shows; Blender writes them into the files."""
+
+
 class OBJECT_OT_framelet_preset_add(AddPresetBase, bpy.types.Operator):
     """Save the engine and its settings as a preset of your own, or remove the one that is active"""
 
@@ -26,5 +34,5 @@ class OBJECT_OT_framelet_preset_add(AddPresetBase, bpy.types.Operator):
     bl_label = "Add Framelet Preset"
     preset_menu = "VIEW3D_PT_framelet_presets"
     preset_subdir = PRESET_FOLDER
-    preset_defines = ("settings = bpy.context.scene.framelet",)
+    preset_defines = SHOWN
     preset_values = tuple(f"settings.{name}" for name in SAVED_NAMES)

@@ -46,6 +46,14 @@ class RegionOptions:
     invert_group: bool = setting_field(
         False, "Invert", "Vertices move by one minus their weight: larger weights move less"
     )
+    face_set: int = setting_field(
+        0,
+        "Face Set",
+        "Only vertices of the face set with this number move, those on its border included; another number "
+        "is another set, 0 all of them",
+        minimum=0,
+        maximum=2**31 - 1,
+    )
     keep_hidden: bool = setting_field(
         True,
         "Leave Hidden Alone",
@@ -126,6 +134,13 @@ class RegionOptions:
         "corners stay corners",
     )
 
+    flatten_spikes: bool = setting_field(
+        False,
+        "Flatten Spikes",
+        "Single vertices and small clusters far off their surroundings come down to them first; Automatic "
+        "does so by itself, the other engines take them for shape",
+    )
+
     def __post_init__(self) -> None:
         for item in fields(self):
             check_value(item.metadata["info"], str(item.type), getattr(self, item.name))
@@ -172,6 +187,7 @@ class RegionOptions:
             weldable=border if self.weld and not self.weld_distance else None,
             repair_folds=self.repair_folds,
             straighten_borders=self.straighten_borders,
+            flatten_spikes=self.flatten_spikes,
         )
 
 

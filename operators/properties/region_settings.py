@@ -26,7 +26,10 @@ def _region_property(item: Field) -> Any:
         return bpy.props.BoolProperty(**common)
     if item.type == "str":
         return bpy.props.StringProperty(**common)
-    common |= {"min": info.minimum, "max": info.maximum, "soft_max": info.soft_maximum}
+    common |= {"min": info.minimum, "max": info.maximum}
+    if item.type == "int":
+        return bpy.props.IntProperty(**common)
+    common["soft_max"] = info.soft_maximum
     if info.unit:
         return bpy.props.FloatProperty(unit=info.unit, precision=5, step=1, **common)
     return bpy.props.FloatProperty(precision=3, step=10, **common)

@@ -162,7 +162,18 @@ def value_texts(scene: bpy.types.Scene, values: Sequence[float], unit: str = "LE
     if unit == "LENGTH":
         sign, size = _unit_of(scene, max(map(abs, values)))
     # A true minus sign, as wide as a plus; and no zero has one.
-    return [f"{'−' if value < 0.0 else ''}{abs(value) / size:.3g}{sign}" for value in values]
+    return [f"{'−' if value < 0.0 else ''}{three_digits(abs(value) / size)}{sign}" for value in values]
+
+
+def three_digits(value: float) -> str:
+    """Return a number of at least 0 with three digits that count; whole numbers have all of theirs.
+
+    Examples
+    --------
+    >>> three_digits(0.12345), three_digits(1234.5), three_digits(2.0)
+    ('0.123', '1234', '2')
+    """
+    return f"{value:.0f}" if 1e3 <= value < 1e6 else f"{value:.3g}"
 
 
 def _unit_of(scene: bpy.types.Scene, length: float) -> tuple[str, float]:

@@ -49,6 +49,11 @@ def is_replaced(method: str, tuning: str, name: str) -> bool:
     return tuning == "NOISE" and has_effect(method, "tuning") and name in TUNED_NAMES
 
 
+def is_filling() -> bool:
+    """Tell whether a preset is filling the fields."""
+    return _is_filling
+
+
 def fill(properties: Any, settings: DenoiseSettings | Mapping[str, Any], keep: tuple[str, ...] = ()) -> None:
     """Write settings to properties, and leave the preset's name as it is.
 

@@ -11,6 +11,7 @@ from bpy.app.translations import pgettext_n as n_
 
 from ...core.settings import DEFAULT_PRESET, PRESETS, DenoiseSettings, SettingInfo
 from .output_choices import IN_PLACE, MODIFIER, NEW_OBJECT, OUTPUTS, SHAPE_KEY
+from .own_settings import followed
 from .region_settings import RegionMixin
 from .setting_values import CUSTOM, DEFINING, FRAME_NAMES, follow_preset, leave_preset
 
@@ -147,10 +148,22 @@ class OutputMixin:
     output: _output_property(IN_PLACE)
 
 
-class FrameletSettings(SettingsMixin, OutputMixin, RegionMixin, bpy.types.PropertyGroup):
-    """The settings that the sidebar shows, stored with the scene.
+def _followed_properties(*mixins: type) -> dict[str, Any]:
+    """Return the properties of mixins, with scene and object following each other."""
+    found = {name: prop for mixin in mixins for name, prop in mixin.__annotations__.items()}
+    # In the sidebar the result is a modifier unless something else is chosen; scripts change the mesh itself.
+    found["output"] = _output_property(MODIFIER)
+    return {
+        name: prop.function(**prop.keywords | {"update": followed(name, prop.keywords.get("update"))})
+        for name, prop in found.items()
+    }
 
-    There the result is a modifier unless something else is chosen; scripts change the mesh itself.
-    """
 
-    output: _output_property(MODIFIER)
+class FrameletSettings(bpy.types.PropertyGroup):
+    """The settings that the sidebar shows, stored with each object and, for new objects, with the scene."""
+
+    __annotations__ = _followed_properties(SettingsMixin, OutputMixin, RegionMixin) | {
+        "is_own": bpy.props.BoolProperty(
+            name="Own Settings", description="The object has settings of its own", options=set()
+        )
+    }

@@ -134,6 +134,7 @@ def fill_band_range(
     properties.minimum = -found.limit if is_signed else 0.0
     properties.maximum, properties.largest = found.limit, found.largest
     properties.share = 100.0 * found.share
+    properties.tolerance, properties.green = found.tolerance, 100.0 * found.green
 
 
 def _fill_belief(properties: BeliefMixin, measured: Collection[MeasuredReport]) -> None:

@@ -138,6 +138,9 @@ class FrameletReport(BeliefMixin, bpy.types.PropertyGroup):
     parameters: StringProperty(
         name="Parameters", description="What was taken from the measured noise; empty if nothing was"
     )
+    hints: StringProperty(
+        name="Hints", description="What made the result other than expected, and the way out, a line each"
+    )
     seconds: FloatProperty(name="Time", description="Seconds for all objects", precision=2)
 
 
@@ -185,5 +188,7 @@ class FrameletBandRange(bpy.types.PropertyGroup):
     share: FloatProperty(
         name="Within", description="Share of the vertices within the range", subtype="PERCENTAGE"
     )
+    tolerance: _value("Tolerance", "Values of at most this magnitude are green; 0 if none are")
+    green: FloatProperty(name="Green", description="Share of the values that are green", subtype="PERCENTAGE")
     shading_type: StringProperty(name="Shading", description="How the 3D View was shaded before")
     color_type: StringProperty(name="Color", description="What colored the 3D View before")

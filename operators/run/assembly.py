@@ -95,7 +95,8 @@ class Assembly:
             counts = {name: count if number == 0 else 0 for name, count in counts.items()}
             seconds = report.seconds if number == 0 else 0.0
             report = replace(report, **counts, seconds=seconds)
-            found.append(DenoiseOutcome(vertices, self._measured(job, report, vertices, motion)))
+            measured = self._measured(job, report, vertices, motion)
+            found.append(DenoiseOutcome(vertices, measured._replace(steps=outcome.measured.steps)))
         return found
 
     def _measured(

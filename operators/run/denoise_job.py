@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from ..machine import available_bytes
+from ..mesh_io.steps import find_steps
 from ..properties.scene_units import displacement_by, length_by
 from .preparations import borrowed_preparations
 
@@ -57,6 +58,8 @@ class DenoiseJob:
         Where the object is in the scene.
     cage : SurfaceMesh or None
         The mesh itself, if `surface` has what a modifier adds to it at the vertices that may not move.
+    is_level : bool
+        Whether `surface` is the finest level of a Multires modifier, and not the mesh.
     """
 
     name: str
@@ -71,6 +74,7 @@ class DenoiseJob:
     mirrors: tuple[Plane, ...] = ()
     origin: NDArray[np.float64] | None = None
     cage: SurfaceMesh | None = None
+    is_level: bool = False
 
     @property
     def base(self) -> SurfaceMesh:
@@ -91,6 +95,8 @@ class MeasuredReport(NamedTuple):
     scene_max: float
     scale: float = 1.0
     """Scene units for a length of 1, of no particular direction, in object space."""
+    steps: str = ""
+    """What `find_steps` says of a mesh whose steps the settings leave; else empty."""
 
 
 class DenoiseOutcome(NamedTuple):
@@ -171,4 +177,6 @@ def _measured(job: DenoiseJob, result: DenoiseResult) -> MeasuredReport:
         rms, maximum = displacement_by(
             job.linear, job.surface.vertices, result.vertices, job.settings.threads
         )
-    return MeasuredReport(report, rms, maximum, length_by(job.linear, 1.0))
+    leaves_steps = job.settings.method == "AUTO" and job.settings.noise != "WIDE"
+    steps = find_steps(job.surface) if leaves_steps else ""
+    return MeasuredReport(report, rms, maximum, length_by(job.linear, 1.0), steps)

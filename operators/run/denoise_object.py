@@ -14,7 +14,10 @@ from ..mesh_io import custom_normals
 from ..mesh_io.region_bridge import read_region
 from ..mesh_io.shape_keys import read_followers
 from ..modifier.displacement import stored_displacement
+from ..modifier.inputs import get_input
 from ..modifier.mirrors import read_mirrors
+from ..modifier.multires import find_multires, level_object
+from ..modifier.node_groups import ON
 from ..modifier.offsets import offset_of
 from ..modifier.recipes import DISPLACEMENT
 from ..modifier.stack import find_modifier
@@ -24,7 +27,7 @@ from ..properties.scene_units import linear_part, origin_of
 from . import run_memory
 from .assembly import assemble
 from .denoise_job import DenoiseJob, DenoiseOutcome, MeasuredReport, compute
-from .output import WrittenOutput, refusal, write_output
+from .output import WrittenOutput, refusal, write_level, write_output
 
 if TYPE_CHECKING:
     import bpy
@@ -41,7 +44,7 @@ def read_job(
     options: RegionOptions | None = None,
     *,
     amount: float = 1.0,
-    from_original: bool = False,
+    from_original: bool | None = None,
 ) -> DenoiseJob:
     """Read what a run needs of an object.
 
@@ -58,8 +61,9 @@ def read_job(
         What limits the run; by default selection and hidden vertices alone.
     amount : float
         How much of what is moved is written.
-    from_original : bool
-        Start from where the vertices were before the last run, if the mesh still is what that made.
+    from_original : bool or None
+        True starts from where the vertices were before the last run, if the mesh still is what that made;
+        False from its result, also from one in a modifier; None from the mesh itself.
 
     Raises
     ------
@@ -71,6 +75,8 @@ def read_job(
     reason = refusal(obj, output)
     if reason is not None:
         raise ValueError(reason)
+    if find_multires(obj) is not None:
+        return _read_level(obj, settings, output, options or RegionOptions(), amount)
     surface, movable, region = read_region(obj, options or RegionOptions())
     job = DenoiseJob(
         obj.name,
@@ -84,7 +90,7 @@ def read_job(
         mirrors=read_mirrors(obj),
         origin=origin_of(obj),
     )
-    job = _with_kept_parts(obj, job)
+    job = _with_modifier(obj, job, from_original)
     run = run_memory.last_run_of(obj, surface) if from_original else None
     if run is None:
         return job
@@ -96,17 +102,47 @@ def read_job(
     return replace(job, surface=original, region=region, present=surface)
 
 
-def _with_kept_parts(obj: bpy.types.Object, job: DenoiseJob) -> DenoiseJob:
-    """Leave what the modifier of a run before adds where this run may not move vertices.
+def _read_level(
+    obj: bpy.types.Object, settings: DenoiseSettings, output: str, options: RegionOptions, amount: float
+) -> DenoiseJob:
+    """Read what a run needs of the finest level of Multires."""
+    with level_object(obj) as level:
+        try:
+            surface, movable, region = read_region(level, options)
+        except ValueError as error:
+            raise ValueError(str(error).replace(f"‘{level.name}’", f"‘{obj.name}’")) from error
+    return DenoiseJob(
+        obj.name,
+        surface,
+        settings,
+        linear_part(obj),
+        movable,
+        region,
+        output,
+        amount,
+        origin=origin_of(obj),
+        is_level=True,
+    )
 
-    So parts of a mesh can be denoised one after the other.
+
+def _with_modifier(obj: bpy.types.Object, job: DenoiseJob, from_original: bool | None) -> DenoiseJob:
+    """Add what the modifier of a run before adds, where this run does not start from the mesh itself.
+
+    That is where it may not move vertices, so that parts of a mesh can be denoised one after the other; and
+    all over where it continues from the result. A modifier that is off shows no result.
     """
+    import numpy as np
+
     modifier = find_modifier(obj, DISPLACEMENT)
+    if modifier is None:
+        return job
     stays = None if job.movable is None else ~job.movable
     if job.region is not None and job.region.weights is not None:
         still = job.region.weights == 0.0
         stays = still if stays is None else stays | still
-    if modifier is None or stays is None:
+    if from_original is False and get_input(modifier, ON):
+        stays = np.ones(job.surface.n_vertices, bool)
+    if stays is None:
         return job
     added = stored_displacement(obj) if job.output == MODIFIER else offset_of(obj, DISPLACEMENT)
     assert added is not None  # there is a modifier
@@ -133,6 +169,8 @@ def write_outcome(obj: bpy.types.Object, job: DenoiseJob, outcome: DenoiseOutcom
         The object that has the result, the same or a new one, and what else was done.
     """
     output = job.output
+    if job.is_level:
+        return write_level(obj, job.surface, outcome.vertices, output, job.amount)
     if job.present is not None:
         output = run_memory.go_back(obj, output)
     followers = {} if output in {SHAPE_KEY, MODIFIER} else read_followers(obj)

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from bpy.app.translations import pgettext_iface as iface_
 
+from ..shortage import reserve_for_writing, shortage_told
 from .assembly import assemble
 from .denoise_job import DenoiseJob, DenoiseOutcome, MeasuredReport, compute, with_amount
 from .denoise_object import read_job, write_outcome
@@ -140,9 +141,10 @@ class DenoiseRun:
         if self.state is not State.RUNNING:
             return self.state
         is_done = self._worker.is_done
-        in_detail = is_done or self._is_touched
-        self._is_touched = False
+        is_touched, self._is_touched = self._is_touched, False
         for mark, job in self._jobs:
+            # Reading a level of Multires counts as touching it, so that it is done once, at the end.
+            in_detail = is_done or (is_touched and not job.is_level)
             change = what_changed(mark, job.read, in_detail=in_detail)
             if change is not None:
                 self.drop(change)
@@ -167,7 +169,10 @@ class DenoiseRun:
         return not self._is_started or self._worker.wait(seconds)
 
     def finish(self) -> list[Written]:
-        """Write the results of a run that is ready, and return what was done."""
+        """Write the results of a run that is ready, and return what was done.
+
+        Where there is no memory to write, `failures` says so; a run that could write nothing has FAILED.
+        """
         if self.state is not State.READY:
             raise RuntimeError(f"The run cannot be finished: {self.state.value}.")
         self.state = State.FINISHED
@@ -176,9 +181,17 @@ class DenoiseRun:
             if isinstance(outcome, DenoiseOutcome):
                 obj = find_object(mark)
                 assert obj is not None  # `tick` has looked, and nothing happened since
+                try:
+                    with shortage_told(obj.name):
+                        reserve_for_writing(obj)
+                except ValueError as error:
+                    self.failures.append(str(error))
+                    continue
                 output = write_outcome(obj, job, outcome)
                 measured = with_amount(outcome.measured, output.amount)
                 written.append(Written(obj, output.obj, measured, output.note))
+        if not written:
+            self.state, self.reason = State.FAILED, " ".join(self.failures)
         return written
 
     def _take_results(self) -> None:
@@ -242,7 +255,7 @@ def begin_run(
     options: RegionOptions | None = None,
     *,
     amount: float = 1.0,
-    from_original: bool = False,
+    from_original: bool | None = None,
 ) -> DenoiseRun:
     """Read all that a run needs.
 
@@ -258,8 +271,9 @@ def begin_run(
         What limits the run.
     amount : float
         How much of what is moved is written.
-    from_original : bool
-        Start from where the vertices were before the last run, where a mesh still is what that made.
+    from_original : bool or None
+        True starts from where the vertices were before the last run, where a mesh still is what that made;
+        False from its result, also from one in a modifier; None from the mesh itself.
 
     Raises
     ------
@@ -269,7 +283,8 @@ def begin_run(
     jobs, failures = [], []
     for obj in objects:
         try:
-            job = read_job(obj, settings, output, options, amount=amount, from_original=from_original)
+            with shortage_told(obj.name):
+                job = read_job(obj, settings, output, options, amount=amount, from_original=from_original)
             jobs.append((mark_of(obj), job))
         except ValueError as error:
             failures.append(str(error))

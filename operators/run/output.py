@@ -12,7 +12,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..mesh_io import custom_normals, mesh_bridge
 from ..modifier import displacement
-from ..modifier.multires import multires_refusal
+from ..modifier.multires import find_multires, finest_level, multires_refusal, reshape
 from ..modifier.offsets import remove_modifier
 from ..modifier.recipes import DISPLACEMENT
 from ..modifier.stack import find_modifier
@@ -51,9 +51,11 @@ def refusal(obj: bpy.types.Object, output: str) -> str | None:
     output : str
         One of `output_choices.OUTPUTS`.
     """
-    reason = mesh_bridge.kind_refusal(obj) or multires_refusal(obj)
+    reason = mesh_bridge.kind_refusal(obj) or multires_refusal(obj, output)
     if reason is not None:
         return reason
+    if find_multires(obj) is not None:
+        return mesh_bridge.ownership_refusal(obj)
     if output == IN_PLACE:
         return mesh_bridge.refusal(obj)
     if output == MODIFIER:
@@ -132,6 +134,26 @@ def write_output(
         settled = custom_normals.settle_normals(obj.data, normals, surface, positions)
         note = _both(note, rpt_(_NORMALS[settled]) if settled else "")
     return WrittenOutput(obj, positions, note, amount)
+
+
+def write_level(
+    obj: bpy.types.Object,
+    surface: SurfaceMesh,
+    vertices: NDArray[np.floating],
+    output: str,
+    amount: float = 1.0,
+) -> WrittenOutput:
+    """Write new positions of the finest level of Multires, or to that of a new object.
+
+    Takes what `write_output` takes. A modifier that adds to the mesh would not reach the level, so that the
+    output MODIFIER is as IN_PLACE.
+    """
+    if output == NEW_OBJECT:
+        obj = _add_copy(obj)
+    vertices = surface.vertices + amount * (vertices.astype("float64") - surface.vertices)
+    reshape(obj, vertices)
+    note = rpt_("level {level} of Multires, the finest, was denoised")
+    return WrittenOutput(obj, vertices.astype("float32"), note.format(level=finest_level(obj)), amount)
 
 
 def _both(first: str, second: str) -> str:

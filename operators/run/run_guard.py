@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import bpy
 
 from ..mesh_io import mesh_bridge
+from ..modifier.multires import finest_level, level_object
 
 if TYPE_CHECKING:
     from ...core import SurfaceMesh
@@ -27,12 +28,15 @@ class Mark(NamedTuple):
     mode: str
     key_name: str
     """The active shape key; empty without one."""
+    level: int
+    """The finest level of Multires; 0 for the mesh itself."""
 
 
 def mark_of(obj: bpy.types.Object) -> Mark:
     """Return what to recognize an object by."""
     key = mesh_bridge.active_key(obj)
-    return Mark(obj.name, obj.session_uid, obj.data.session_uid, obj.mode, "" if key is None else key.name)
+    key_name = "" if key is None else key.name
+    return Mark(obj.name, obj.session_uid, obj.data.session_uid, obj.mode, key_name, finest_level(obj))
 
 
 def find_object(mark: Mark) -> bpy.types.Object | None:
@@ -72,9 +76,19 @@ def what_changed(mark: Mark, surface: SurfaceMesh, *, in_detail: bool = False) -
     key = mesh_bridge.active_key(obj)
     if mark.key_name != ("" if key is None else key.name):
         return f"Another shape key of {name} became active"
+    if mark.level != finest_level(obj):
+        return f"The levels of {name} are others"
+    if mark.level:
+        return f"{name} was sculpted" if in_detail and not _is_same_level(obj, surface) else None
     if not mesh_bridge.has_counts_of(obj, surface) or (in_detail and not _is_same_mesh(obj, surface)):
         return f"The mesh of {name} was edited"
     return None
+
+
+def _is_same_level(obj: bpy.types.Object, surface: SurfaceMesh) -> bool:
+    """Tell whether the finest level of Multires has the values that were read."""
+    with level_object(obj) as level:
+        return _is_same_mesh(level, surface)
 
 
 def _is_same_mesh(obj: bpy.types.Object, surface: SurfaceMesh) -> bool:

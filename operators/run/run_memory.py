@@ -251,6 +251,12 @@ def known_side(obj: bpy.types.Object | None) -> str:
     return _sides[uid][1]
 
 
+def shows_result(obj: bpy.types.Object | None) -> bool:
+    """Tell whether an object shows the result of a run; that in a modifier also after a file was opened."""
+    modifier = find_modifier(obj, DISPLACEMENT)
+    return known_side(obj) == "AFTER" if modifier is None else bool(get_input(modifier, ON))
+
+
 def forget_sides(touched: Iterable[int] | None = None) -> None:
     """Have `known_side` look again at meshes, by their numbers in the session; at all by default."""
     for uid in list(_sides) if touched is None else touched:

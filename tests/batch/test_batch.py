@@ -4,8 +4,10 @@
 """A batch: what it does, what it leaves alone, what it says, and how it goes on."""
 
 import hashlib
+import io
 import json
 import os
+import sys
 
 import pytest
 from framelet.core.settings import DenoiseSettings
@@ -14,6 +16,7 @@ from framelet.operators.command_line import main
 from framelet.operators.files import open_file
 from framelet.operators.properties.region_options import RegionOptions
 
+from ..files.made import full_gltf
 from .conftest import obj, rows_of, run
 
 QUICK = ("--preset", "tri-2")
@@ -41,8 +44,10 @@ def test_a_folder(scans, tmp_path, capsys):
         assert row["output_sha256"] == hashlib.sha256(data).hexdigest() != row["input_sha256"]
         assert row["n_vertices"] == 64 and row["n_faces"] == 98 and row["n_moved"] > 30
         assert 0 < row["displacement_rms"] < row["displacement_max"]
-        assert row["defects"]["boundary_vertices"] == 28
-        assert set(row["seconds"]) == {"hash", "read", "denoise", "write", "publish"}
+        assert row["defects"] == [
+            {"kind": "open borders", "count": 28, "of": "vertex", "first": [0, 1, 2, 3, 4]}
+        ]
+        assert {"hash", "read", "defects", "denoise", "write", "publish"} <= set(row["seconds"])
         assert row["peak_bytes"] is None or row["peak_bytes"] > 10**7
         assert row["noise"][0]["sigma_high"] > 0
     assert "[6/6]" in capsys.readouterr().out
@@ -242,3 +247,86 @@ def test_quiet_and_verbose(scans, tmp_path):
     out, _err = run("batch", scans, "--out", tmp_path / "b", "--verbose", *QUICK)
     assert out.count("denoise 0.") == 6
     assert not list((tmp_path / "a").glob("*.begun"))
+
+
+def test_what_a_file_refers_to_counts(scans, tmp_path):
+    out = tmp_path / "out"
+    (scans / "0.obj").write_text("mtllib 0.mtl\n" + obj(0))
+    (scans / "0.mtl").write_text("newmtl a\nmap_Kd a.png\n")
+    (scans / "a.png").write_bytes(b"one")
+    words = (scans / "0.obj", "--out", out, *QUICK)
+    assert batch(*words) == 0
+    (row,) = rows_of(out / "report.jsonl")
+    hashes = {name: hashlib.sha256((scans / name).read_bytes()).hexdigest() for name in ("0.mtl", "a.png")}
+    assert row["beside_input"] == row["beside_output"] == hashes
+    assert batch(*words) == 0 and len(rows_of(out / "report.jsonl")) == 1
+    # Another texture: the copy of before is the batch's own, and follows.
+    (scans / "a.png").write_bytes(b"another")
+    assert batch(*words) == 0
+    assert (out / "a.png").read_bytes() == b"another" and len(rows_of(out / "report.jsonl")) == 2
+    assert not rows_of(out / "report.jsonl")[1]["warnings"]
+    (out / "0.mtl").unlink()
+    assert batch(*words) == 0
+    assert (out / "0.mtl").exists() and len(rows_of(out / "report.jsonl")) == 3
+    # What somebody else wrote there is left alone.
+    (out / "a.png").write_bytes(b"mine")
+    assert batch(*words) == 0
+    assert (out / "a.png").read_bytes() == b"mine"
+    assert "left alone" in rows_of(out / "report.jsonl")[3]["warnings"][0]
+
+
+def test_a_buffer_that_a_killed_run_left_is_its_own(tmp_path):
+    source = tmp_path / "in" / "scan.gltf"
+    source.parent.mkdir()
+    text, buffer = full_gltf("separate")
+    source.write_bytes(text)
+    (source.parent / "sheet data.bin").write_bytes(buffer)
+    out = tmp_path / "out"
+    assert batch(source, "--out", out, *QUICK) == 0
+    whole = {path.name: path.read_bytes() for path in out.glob("s*")}
+    report, buffers = out / "report.jsonl", sorted(set(whole) - {"scan.gltf"})
+    (row,) = rows_of(report)
+    assert buffers and sorted(row["beside_output"]) == buffers and set(row["beside_input"]) >= set(buffers)
+    # Killed after the buffer was moved into its place, and before the file that names it was.
+    (out / "scan.gltf").unlink()
+    report.write_bytes(b"")
+    assert batch(source, "--out", out, *QUICK) == 0
+    assert {path.name: path.read_bytes() for path in out.glob("s*")} == whole
+    # A buffer that has changed is seen.
+    (out / buffers[0]).write_bytes(b"cut")
+    assert batch(source, "--out", out, *QUICK) == 0
+    assert (out / buffers[0]).read_bytes() == whole[buffers[0]] and len(rows_of(report)) == 2
+
+
+def test_defects_have_kinds_and_numbers(scans, tmp_path):
+    (scans / "0.obj").write_text(obj(0) + "v 9 9 9\nf 1 2 9\nf 1 1 2\nf 2 1 33\nf 1 2 17\n")
+    assert batch(scans / "0.obj", "--out", tmp_path / "out", *QUICK) == 0
+    (row,) = rows_of(tmp_path / "out" / "report.jsonl")
+    found = {defect["kind"]: (defect["count"], defect["first"]) for defect in row["defects"]}
+    assert found["degenerate faces"] == (1, [99])
+    assert found["edges with more than two faces"] == (2, [0, 1])
+    assert found["loose vertices"] == (1, [64])
+    assert found["non-manifold vertices"][0] >= 2
+
+
+class Terminal(io.StringIO):
+    """What takes a bar."""
+
+    def isatty(self):
+        return True
+
+
+def test_a_bar_on_a_terminal(scans, tmp_path, monkeypatch, capsys):
+    pytest.importorskip("tqdm", reason="tqdm is not installed")
+    (scans / "empty.obj").touch()
+    monkeypatch.setattr(sys, "stderr", Terminal())
+    assert batch(scans, "--out", tmp_path / "bar", *QUICK) == 1
+    shown = sys.stderr.getvalue()
+    assert "7/7" in shown and "1 failed" in shown and "empty.obj is empty." in shown
+    assert capsys.readouterr().out == ""
+    # Without tqdm there is a line a file.
+    monkeypatch.setitem(sys.modules, "tqdm", None)
+    monkeypatch.setattr(sys, "stderr", Terminal())
+    assert batch(scans, "--out", tmp_path / "lines", *QUICK) == 1
+    assert "7/7 [" not in sys.stderr.getvalue()
+    assert capsys.readouterr().out.count("vertices, moved by") == 6

@@ -3,7 +3,6 @@
 """A batch on a scheduler and two workers of Dask, one of which is killed on the way."""
 
 import os
-import signal
 import subprocess
 import sys
 import time
@@ -22,13 +21,13 @@ def test_what_is_missing_is_said(scans, tmp_path, capsys, monkeypatch):
     monkeypatch.setitem(sys.modules, "distributed", None)
     words = ("batch", str(scans), "--out", str(tmp_path / "out"), "--scheduler", "tcp://127.0.0.1:9")
     assert main(words) == 2
-    assert "pip install framelet[farm]" in capsys.readouterr().err
+    assert "pip install distributed" in capsys.readouterr().err
 
 
 @pytest.fixture
 def farm(tmp_path):
     """A scheduler and two workers, which import Framelet as an installed package; address and processes."""
-    pytest.importorskip("distributed", reason="Dask distributed is not installed (framelet[farm])")
+    pytest.importorskip("distributed", reason="Dask distributed is not installed")
     package = tmp_path / "path"
     package.mkdir()
     (package / "framelet").symlink_to(ROOT)
@@ -75,8 +74,9 @@ def test_two_workers_one_killed(farm, tmp_path):
     )
     for _ in range(3):
         process.stdout.readline()
-    os.kill(first.pid, signal.SIGKILL)
-    _out, err = process.communicate(timeout=120)
+    first.kill()
+    first.wait()
+    _out, err = process.communicate(timeout=600)
     assert process.returncode == 1, err
     rows = rows_of(out / "report.jsonl")
     # Every file once.
@@ -92,5 +92,14 @@ def test_a_scheduler_that_does_not_answer(farm, scans, tmp_path, monkeypatch, ca
     monkeypatch.setattr(dask_farm, "PATIENCE", 1)
     words = ("batch", str(scans), "--out", str(tmp_path / "out"), "--scheduler", "tcp://127.0.0.1:9")
     began = time.monotonic()
-    assert main(words) == 2
+    assert main(words) == 1
     assert "does not answer" in capsys.readouterr().err and time.monotonic() - began < 30
+
+
+def test_workers_with_several_threads_are_refused(farm, scans, tmp_path, capsys, monkeypatch):
+    from distributed import Client
+
+    address, (_scheduler, *_workers) = farm
+    monkeypatch.setattr(Client, "nthreads", lambda self: {"tcp://10.0.0.1:1": 4})
+    assert main(["batch", str(scans), "--out", str(tmp_path / "out"), "--scheduler", address]) == 1
+    assert "--nworkers 4 --nthreads 1" in capsys.readouterr().err

@@ -8,12 +8,23 @@ import pytest
 from blender_objects import edit, noisy_monkey, read, select_only
 from drawing import draw
 from framelet.operators.denoise import OBJECT_OT_framelet_denoise as Denoise
+from framelet.operators.mesh_io.mesh_bridge import read_positions
+from framelet.operators.modifier.inputs import set_input
+from framelet.operators.modifier.node_groups import ON
+from framelet.operators.modifier.recipes import DISPLACEMENT
+from framelet.operators.modifier.stack import find_modifier
 from framelet.operators.run import denoise_run, run_memory
 from framelet.operators.run.denoise_object import denoise_object
 from framelet.ui.panels import panel, see_panel
 from run_steps import QUICK, expected_for, settle, turn_on
 
 WEAK, STRONG = 0.1, 0.5
+
+
+def denoised(obj):
+    """Return the vertices that an object shows, with its modifiers."""
+    evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    return read_positions(evaluated.data)
 
 
 def run(**options):
@@ -191,6 +202,40 @@ def test_a_new_object_takes_the_next_result(monkey):
         assert {obj.name for obj in bpy.data.objects} == {"Monkey", "Monkey.denoised"}
         assert read(bpy.context.object).tobytes() == expected(lambda_).tobytes()
     assert read(monkey).tobytes() == noisy.tobytes()
+
+
+def test_continuing_goes_on_from_a_modifier(monkey):
+    """What the arrow beside the button does is the same wherever the result is."""
+    noisy = read(monkey)
+    other = noisy_monkey("Other")
+    run(lambda_=WEAK)
+    run(lambda_=STRONG)
+    twice = read(other)
+    select_only(monkey)
+    again(lambda_=WEAK, output="MODIFIER")
+    once = denoised(monkey)
+    run(lambda_=STRONG, output="MODIFIER", from_original=False)
+    assert read(monkey).tobytes() == noisy.tobytes()
+    assert np.allclose(denoised(monkey), twice, atol=1e-6) and not np.allclose(once, twice, atol=1e-3)
+    # Before and after are the original and what both runs made.
+    assert run_memory.known_side(monkey) == "AFTER"
+    bpy.ops.object.framelet_before_after(side="BEFORE")
+    assert np.allclose(denoised(monkey), noisy)
+    # A result that is not shown is none to continue from.
+    run(lambda_=WEAK, output="MODIFIER", from_original=False)
+    assert np.allclose(denoised(monkey), once, atol=1e-6)
+    run(lambda_=STRONG, from_original=False)
+    assert find_modifier(monkey, DISPLACEMENT) is None and np.allclose(read(monkey), twice, atol=1e-6)
+
+
+def test_a_modifier_from_a_file_can_be_continued_from(monkey):
+    run(lambda_=WEAK, output="MODIFIER")
+    run_memory.forget_runs()
+    assert run_memory.known_side(monkey) == "" and run_memory.shows_result(monkey)
+    record = draw(panel.VIEW3D_PT_framelet)
+    assert record["operator"].count("object.framelet_denoise") == 2
+    set_input(find_modifier(monkey, DISPLACEMENT), ON, False)
+    assert draw(panel.VIEW3D_PT_framelet)["operator"].count("object.framelet_denoise") == 1
 
 
 def test_from_the_mesh_to_a_modifier(monkey):

@@ -18,7 +18,7 @@ class Gated:
         self.began, self.go = threading.Event(), threading.Event()
         self.done, self.stopped = [], []
 
-    def __call__(self, request, should_stop):
+    def __call__(self, request, should_stop, _show):
         self.began.set()
         while not self.go.wait(0.001):
             if should_stop():
@@ -78,7 +78,7 @@ def test_a_slow_one_is_left_alone_if_nothing_newer_waits(server, gated, monkeypa
 
 
 def test_errors_are_answers():
-    def fail(request, _should_stop):
+    def fail(request, *_):
         raise ValueError(f"no {request}")
 
     server = Latest(fail)
@@ -98,3 +98,25 @@ def test_closing_stops_and_answers_nothing(gated):
     server.close()
     server.join()
     assert gated.stopped == [1] and gated.done == [] and server.take() is None
+
+
+def test_what_is_shown_before_the_answer_is_taken_once(monkeypatch):
+    shown, go = threading.Event(), threading.Event()
+
+    def compute(request, _should_stop, show):
+        show(request * 2)
+        shown.set()
+        assert go.wait(SECONDS)
+        return request * 10
+
+    server = Latest(compute)
+    try:
+        server.request(3)
+        assert shown.wait(SECONDS)
+        assert server.take() == (3, 6, None) and server.take() is None and server.is_busy
+        go.set()
+        assert server.wait(SECONDS)
+        assert server.take() == (3, 30, None)
+    finally:
+        server.close()
+        server.join()

@@ -6,7 +6,7 @@ import os
 
 import pytest
 from framelet.core.blocks import Blocks
-from framelet.core.processors import use_processors
+from framelet.core.processors import default_threads, set_default_threads
 from framelet.operators import machine
 from framelet.operators.machine import available_bytes, available_processors
 
@@ -104,8 +104,9 @@ def test_this_machine():
 
 
 def test_the_core_takes_the_number_that_it_is_told():
+    before = default_threads()
     try:
-        use_processors(3)
+        set_default_threads(3)
         assert Blocks().n_threads == 3 and Blocks(2).n_threads == 2
     finally:
-        use_processors(0)
+        set_default_threads(before)

@@ -149,7 +149,7 @@ def test_what_comes_from_the_noise_is_grayed(tuning):
     settings = bpy.context.scene.framelet
     settings.preset, settings.tuning = "POSITIONS", tuning
     record = draw(panel.VIEW3D_PT_framelet)
-    assert record["prop"][:4] == ["preset", "method", "amount", "tuning"]
+    assert record["prop"][:5] == ["preset", "method", "strength", "amount", "tuning"]
     is_tuned = tuning == "NOISE"
     grayed = ["lambda_", "mu", "Smoothing λ", "–", "Penalty μ", "–"]
     assert record["grayed"] == (grayed if is_tuned else [])

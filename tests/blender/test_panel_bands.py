@@ -166,11 +166,11 @@ def test_what_a_run_changed_is_shown_by_buttons_that_stay_pressed(make_object, r
     for quantity in quantities:
         bpy.ops.object.framelet_heat_map(quantity=quantity)
         record = draw(see_panel.VIEW3D_PT_framelet_see)
-        buttons = [name("hide_colors") if each == quantity else name("heat_map") for each in quantities]
+        buttons = [name("heat_map")] * 4
+        buttons.insert(quantities.index(quantity), name("hide_colors"))  # the one behind it colors again
         assert record["operator"] == [*sides, *buttons]
         assert record["pressed"] == [name("before_after"), name("hide_colors")]
-        last = [each for each in quantities if each != quantity][-1]
-        assert record[name("heat_map")].quantity == last
+        assert record[name("heat_map")].quantity == quantities[-1]
     obj.data.attributes.active_color_name = ""
     assert draw(see_panel.VIEW3D_PT_framelet_see)["pressed"] == [name("before_after")]
     bpy.ops.mesh.primitive_cube_add()
@@ -196,11 +196,15 @@ def test_the_heat_map_takes_the_range_of_the_scene(make_object, rng, rule):
     heat.range_rule, heat.percentile, heat.limit = rule, 77.0, 0.5
     more = {"PERCENTILE": ["percentile"], "MAXIMUM": [], "FIXED": ["limit"]}[rule]
     record = draw(see_panel.VIEW3D_PT_framelet_see)
-    assert record["prop"] == ["range_rule", *more]
+    assert record["prop"] == ["range_rule", *more, "tolerance"]
     values = record["object.framelet_heat_map"]
     assert (values.range_rule, values.percentile, values.limit) == (rule, 77.0, 0.5)
     bpy.ops.object.framelet_heat_map(quantity="ANGLE")
-    for quantity, name in (("ANGLE", "limit_angle"), ("NOISE", "limit"), ("WIDTH", "limit_edges")):
+    for quantity, name, *end in (
+        ("ANGLE", "limit_angle", "tolerance_angle"),
+        ("NOISE", "limit", "tolerance"),
+        ("WIDTH", "limit_edges"),
+    ):
         bpy.ops.object.framelet_heat_map(quantity=quantity)
         more = [name] if rule == "FIXED" else more
-        assert draw(see_panel.VIEW3D_PT_framelet_see)["prop"] == ["range_rule", *more]
+        assert draw(see_panel.VIEW3D_PT_framelet_see)["prop"] == ["range_rule", *more, *end]

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Nothing tears: split seams, mirrored halves, objects whose borders meet; custom normals, and Multires."""
+"""Nothing tears: split seams, mirrored halves, objects whose borders meet; custom normals."""
 
 from itertools import pairwise
 
@@ -371,20 +371,3 @@ def test_where_clean_normals_cannot_stay_it_is_said(shaded, output, capfd):
         assert offset_of(obj, DISPLACEMENT).any()
         bpy.ops.object.framelet_apply_modifier()
         assert degrees(custom_normals.read_normals(obj.data), clean) < 0.1
-
-
-# Multires --------------------------------------------------------------------------------------------------
-
-
-def test_multires_is_not_denoised_in_silence(make_object, rng):
-    obj = make_object(noisy(triangle_torus(), rng))
-    obj.modifiers.new("Multires", "MULTIRES")
-    bpy.ops.object.framelet_denoise(preset="TRI_2")
-    before = read(obj)
-    bpy.ops.object.multires_subdivide(modifier="Multires")
-    for output in ("IN_PLACE", "MODIFIER", "NEW_OBJECT", "SHAPE_KEY"):
-        with pytest.raises(RuntimeError, match="Multires modifier, whose sculpted shape is not the mesh"):
-            bpy.ops.object.framelet_denoise(output=output)
-    with pytest.raises(RuntimeError, match="has a Multires modifier"):
-        bpy.ops.object.framelet_preview()
-    assert read(obj).tobytes() == before.tobytes()

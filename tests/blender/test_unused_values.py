@@ -40,8 +40,8 @@ def warnings(make_object, capfd):
             'give preset="POSITIONS" for one that does.',
         ),
         (
-            {"preset": "TRI_2", "strength": 0.5},
-            'The engine Positions (paper) does not use strength; give preset="AUTO" for one that does.',
+            {"preset": "TRI_2", "strength": 0.5, "passes": 1},
+            'The engine Positions (paper) does not use passes; give preset="AUTO" for one that does.',
         ),
         (
             {"method": "BILATERAL", "lambda_": 0.7},
@@ -77,6 +77,7 @@ def test_what_has_no_effect_is_said(warnings, arguments, sentence):
         {},
         {"strength": 0.5, "boundary": "FIXED", "threads": 1},
         {"noise": "FINE", "passes": 1},
+        {"preset": "TRI_1", "strength": 0.5},
         {"preset": "TRI_2", "lambda_": 0.4, "mu": 2.0, "iterations": 3},
         {"preset": "BILATERAL", "iterations": 2, "sigma_c": 0.5},
         {"preset": "POSITIONS", "limit": "EDGES", "max_edges": 0.5},

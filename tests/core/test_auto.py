@@ -13,12 +13,11 @@ from framelet.core import (
     PreparationCache,
     SurfaceMesh,
     add_noise,
-    blocks,
     compare,
     connect,
     denoise,
+    prepare,
 )
-from framelet.core.learned import face_graph
 from known_shapes import SHAPES, cube, edge_of, hexagons, lifted, sphere, white, wide
 from meshes import (
     MESHES,
@@ -81,10 +80,7 @@ SMALL = {
 MESH = pytest.mark.parametrize("name", MOVED)
 
 
-@pytest.fixture(autouse=True)
-def on_calling_thread(monkeypatch):
-    """One thread unless told, as these meshes are too small for more."""
-    monkeypatch.setattr(blocks, "available_cores", lambda: 1)
+pytestmark = pytest.mark.usefixtures("one_thread")
 
 
 def solved(mesh, **given):
@@ -162,12 +158,13 @@ def test_far_away_no_digit_is_lost(rng):
 
 
 @pytest.mark.parametrize("name", ["closed", "mixed", "polygons"])
-def test_threads_do_not_change_a_bit(name, rng, monkeypatch):
+def test_threads_do_not_change_a_bit(name, rng):
     """With blocks so small that there are many."""
     mesh = noisy(union(MOVED[name](), MOVED[name]()), rng)
-    monkeypatch.setattr(blocks.Blocks.__init__, "__defaults__", (0, 64))
-    monkeypatch.setattr(face_graph, "FACES_AT_ONCE", 40)
-    results = [denoise(mesh, AUTO.with_changes(threads=threads)) for threads in (1, 2, 3)]
+    results = [
+        denoise(mesh, AUTO.with_changes(threads=threads), prepared=prepare(mesh, AUTO, block_size=40))
+        for threads in (1, 2, 3)
+    ]
     for result in results[1:]:
         assert_same_bits(result.vertices, results[0].vertices)
         assert result.report.noise == results[0].report.noise

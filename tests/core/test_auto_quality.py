@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 from checks import assert_same_bits, lengths
-from framelet.core import PRESETS, SurfaceMesh, add_noise, blocks, compare, denoise
+from framelet.core import PRESETS, SurfaceMesh, add_noise, compare, denoise
 from known_shapes import SHAPES, cube, edge_of, lifted, white
 from mesh_files import read_mesh
 from meshes import faces_of, quad_grid, quad_torus, triangle_grid, triangle_torus, union
@@ -25,10 +25,7 @@ BOUNDS = {
 """A third above what was measured; see `docs/benchmarks_quality.md` for figures of real meshes."""
 
 
-@pytest.fixture(autouse=True)
-def on_calling_thread(monkeypatch):
-    """One thread, as these meshes are too small for more."""
-    monkeypatch.setattr(blocks, "available_cores", lambda: 1)
+pytestmark = pytest.mark.usefixtures("one_thread")
 
 
 def cleaned(mesh, **changes):

@@ -11,8 +11,7 @@ from framelet.core import DenoiseSettings, compare, denoise
 from framelet.core.blocks import Blocks
 from framelet.core.limits.constraints import find_constraints
 from framelet.core.mesh.connectivity import connect
-from framelet.core.mesh.neighborhoods import vertices_within
-from framelet.core.methods.bilateral import bilateral_filter
+from framelet.core.methods.bilateral import bilateral_filter, vertices_within
 from framelet.core.methods.problem import Problem
 from meshes import MESHES, faces_of, flipped, mixed_sheet, noisy, soup, triangle_torus, union
 from twins import newell
@@ -104,3 +103,13 @@ def test_noise_goes_down(rng):
     )
     result = clean.with_vertices(denoise(noise, DenoiseSettings(method="BILATERAL", iterations=5)).vertices)
     assert compare(result, clean).mean_angle < 0.6 * compare(noise, clean).mean_angle
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+@pytest.mark.parametrize("sigma_s", [5e-324, 1.5e-164, 1e-20])
+def test_heights_next_to_zero_let_nothing_move(sigma_s, dtype, rng):
+    """Their squares are no numbers any more."""
+    mesh = noisy(triangle_torus(), rng)
+    result = denoise(mesh, DenoiseSettings(method="BILATERAL", sigma_s=sigma_s), dtype=dtype)
+    assert lengths(result.vertices - mesh.vertices).max() < 1e-6

@@ -161,7 +161,7 @@ def test_faces_across_edges(name):
 def test_defects_are_listed():
     mesh = MESHES["three pages"]()
     connectivity = connect(mesh)
-    assert mesh.edges[connectivity.non_manifold_edges()].tolist() == [[11, 12]]
+    assert mesh.edges[connectivity.edge_face_count > 2].tolist() == [[11, 12]]
     assert np.flatnonzero(connectivity.is_non_manifold).tolist() == [11, 12]
     mesh = MESHES["mixed sheet"]()
     connectivity = connect(mesh)

@@ -1,15 +1,14 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Dilated members by the angle rule of section 3.2, against plain breadth-first searches and angles."""
+"""Dilated ring points by the angle rule of section 3.2, against plain breadth-first searches and angles."""
 
 import numpy as np
 import pytest
 from framelet.core import BANKS, SurfaceMesh, connect, make_stencil
 from framelet.core.blocks import Blocks
 from framelet.core.mesh.distance_rings import distance_rings, edge_adjacency, face_adjacency
-from framelet.core.stencils import dilation
 from framelet.core.stencils.dilation import dilate
-from framelet.core.stencils.members import one_ring_members, quad_members, triangle_members
+from framelet.core.stencils.members import one_ring_points, quad_points, triangle_points
 from meshes import MESHES, flipped, noisy, quad_grid, quad_torus, triangle_grid, triangle_torus, union
 from stars import star
 from stencil_twins import MeshTwin, dilated, distances, neighbors_by
@@ -26,10 +25,10 @@ QUADS = {
 }
 
 
-def members_at(mesh, level, size, blocks=None):
-    """Return near and far members of a level, on quads (size 4) or triangles."""
+def ring_points_at(mesh, level, size, blocks=None):
+    """Return near and far ring points of a level, on quads (size 4) or triangles."""
     connectivity = connect(mesh)
-    start = (quad_members if size == 4 else triangle_members)(mesh, connectivity)
+    start = (quad_points if size == 4 else triangle_points)(mesh, connectivity)
     adjacency = face_adjacency(mesh, connectivity) if size == 4 else edge_adjacency(connectivity)
     return dilate(start, mesh.vertices, adjacency, level, 1 if size == 4 else 2, blocks or Blocks(1))
 
@@ -43,7 +42,7 @@ def test_matches_the_plain_search(size, name, level, rng):
     mesh = noisy((TRIANGLES if size == 3 else QUADS)[name](), rng)
     twin = MeshTwin(mesh)
     near = neighbors_by(twin, size)
-    found, start = members_at(mesh, level, size), members_at(mesh, 0, size)
+    found, start = ring_points_at(mesh, level, size), ring_points_at(mesh, 0, size)
     offset = found.connectivity.ring_offset
     n_found = n_lost = 0
     for v in range(level % 3, mesh.n_vertices, 3):
@@ -99,9 +98,9 @@ def test_flat_grids_give_the_lattice(bank, level):
 def test_far_members_of_triangles_are_dilated_on_twice_the_ring():
     mesh = triangle_grid(13, 13)
     center = 6 * 13 + 6
-    members, start = members_at(mesh, 1, 3), members_at(mesh, 0, 3)
-    own = slice(*members.connectivity.ring_offset[[center, center + 1]])
-    for found, first in ((members.near, start.near), (members.far, start.far)):
+    ring_points, start = ring_points_at(mesh, 1, 3), ring_points_at(mesh, 0, 3)
+    own = slice(*ring_points.connectivity.ring_offset[[center, center + 1]])
+    for found, first in ((ring_points.near, start.near), (ring_points.far, start.far)):
         leap = mesh.vertices[found[own]] - mesh.vertices[center]
         assert np.array_equal(leap, 2 * (mesh.vertices[first[own]] - mesh.vertices[center]))
 
@@ -116,30 +115,29 @@ def test_of_ties_the_lowest_number_wins(names):
     mesh = SurfaceMesh.from_faces(points, [(0, 1, 2), (0, 3, 1), (1, left, 2), (1, 3, right)])
     for turn in (0.0, 0.3, 1.1):  # rounding, which differs from turn to turn, does not decide
         rotation = np.array([[np.cos(turn), -np.sin(turn), 0], [np.sin(turn), np.cos(turn), 0], [0, 0, 1]])
-        members = members_at(mesh.with_vertices(points @ rotation), 1, 3)
-        ring = members.connectivity.ring_of(0).tolist()
-        assert members.near[ring.index(1)] == 4  # vertex 0 owns the first entries
+        ring_points = ring_points_at(mesh.with_vertices(points @ rotation), 1, 3)
+        ring = ring_points.connectivity.ring_of(0).tolist()
+        assert ring_points.near[ring.index(1)] == 4  # vertex 0 owns the first entries
 
 
 def test_what_is_too_small_for_a_ring_has_no_members():
     """All taps hold the vertex itself, so it carries no detail at this level; other parts do."""
     small, large = MESHES["octahedron"](), triangle_torus(9, 10)
     mesh = union(small, large)
-    members = dilate(
-        one_ring_members(connect(mesh)), mesh.vertices, edge_adjacency(connect(mesh)), 2, 1, Blocks(1)
+    ring_points = dilate(
+        one_ring_points(connect(mesh)), mesh.vertices, edge_adjacency(connect(mesh)), 2, 1, Blocks(1)
     )
-    assert not members.is_found()[:6].any()
-    assert members.is_found()[6:].all()
+    assert not ring_points.is_found()[:6].any()
+    assert ring_points.is_found()[6:].all()
     slots = make_stencil(mesh, connect(mesh), level=2).slots
     assert (slots[:, :6] == np.arange(6)).all()
     assert (slots[1:, 6:] != np.arange(6, mesh.n_vertices)).any(axis=0).all()
 
 
-def test_blocks_do_not_change_members(rng, monkeypatch):
+def test_blocks_do_not_change_members(rng):
     mesh = noisy(union(flipped(triangle_torus()), MESHES["mixed sheet"]()), rng)
-    plain = members_at(mesh, 2, 3)
-    monkeypatch.setattr(dilation, "CANDIDATES_PER_BLOCK", 7 * 64 * 8)
-    with Blocks(3) as blocks:
-        blocked = members_at(mesh, 2, 3, blocks)
+    plain = ring_points_at(mesh, 2, 3)
+    with Blocks(3, block_size=7 * 64) as blocks:
+        blocked = ring_points_at(mesh, 2, 3, blocks)
     assert np.array_equal(plain.near, blocked.near)
     assert np.array_equal(plain.far, blocked.far)

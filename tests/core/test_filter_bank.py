@@ -10,7 +10,7 @@ from framelet.core.frames.box_spline import BOX_SPLINE_111, BOX_SPLINE_111_CANON
 from framelet.core.frames.filter_bank import unitary_extension_defects
 from framelet.core.frames.four_direction import BOX_SPLINE_FOUR_DIRECTION
 from framelet.core.frames.linear_spline import LINEAR_SPLINE, LINEAR_SPLINE_REDUCED
-from framelet.core.frames.mask_product import SINGLE_THREAD_LIMIT, MaskProduct
+from framelet.core.frames.mask_product import SINGLE_THREAD_LIMIT, apply_matrix, hadamard_bands, is_hadamard
 
 EXACT = 1e-13
 
@@ -201,7 +201,14 @@ def test_mask_product(bank, dtype, tolerance, rng):
         for n in (0, 1, 50 + SINGLE_THREAD_LIMIT // (len(rows) * bank.n_taps)):
             matrix = rng.normal(size=(3, bank.n_taps, n)).astype(dtype)
             matrix.flags.writeable = False
-            result = MaskProduct(bank.masks[rows], dtype)(matrix)
+            masks = bank.masks[rows]
+            result = apply_matrix(masks.astype(dtype), matrix)
+            if is_hadamard(masks):
+                low = np.empty((3, n), dtype)
+                high = hadamard_bands(matrix[:, 0], matrix[:, 1:], low)
+                assert high.dtype == dtype
+                apart = np.concatenate((low[:, None], high), axis=1) - result
+                assert np.abs(apart).max(initial=0) < tolerance
             assert result.dtype == dtype
             assert result.shape == (3, len(rows), n)
             for place in (0, n // 2, n - 1) if n else ():

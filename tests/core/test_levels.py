@@ -11,13 +11,11 @@ from framelet.core import (
     DenoiseSettings,
     connect,
     denoise,
-    equalize,
     make_stencil,
     make_transform,
+    prepare,
 )
-from framelet.core.blocks import Blocks
-from framelet.core.stencils import dilation
-from framelet.core.transform import adaptive_level
+from framelet.core.equalizer import Equalizer
 from meshes import flipped, mixed_sheet, noisy, prism, pyramid, quad_torus, triangle_torus, union
 from stars import star
 from twins import split_bregman
@@ -158,17 +156,20 @@ def test_float32_agrees_with_float64(frame, rng):
     assert lengths(fast.vertices - exact.vertices).max() < 1e-4 * exact.report.mean_edge_length
 
 
+def in_blocks(size, mesh, settings, dtype=np.float32):
+    """Return the positions after a run whose blocks have so many vertices."""
+    prepared = prepare(mesh, settings, dtype=dtype, block_size=size)
+    return denoise(mesh, settings, dtype=dtype, prepared=prepared).vertices
+
+
 @pytest.mark.parametrize("frame", ["BOX_SPLINE_111", "B_SPLINE_3", "ADAPTIVE", "PAIRWISE"])
-def test_threads_do_not_change_a_bit(frame, rng, monkeypatch):
-    """Blocks of a hundred vertices, and small chunks, so that there are many of each."""
-    monkeypatch.setattr(Blocks.__init__, "__defaults__", (0, 100))
-    monkeypatch.setattr(adaptive_level, "SLOTS_PER_CHUNK", 200)
-    monkeypatch.setattr(dilation, "CANDIDATES_PER_BLOCK", 2**13)
+def test_threads_do_not_change_a_bit(frame, rng):
+    """Blocks of fifty vertices, and small chunks, so that there are many of each."""
     mesh = sheet(rng)
     settings = DenoiseSettings(method="POSITIONS", frame=frame, levels=2, iterations=3, delta=0.1)
     for run in (
-        lambda threads: denoise(mesh, settings.with_changes(threads=threads)).vertices,
-        lambda threads: equalize(mesh, [0.5, 1.5], frame=frame, threads=threads),
+        lambda threads: in_blocks(50, mesh, settings.with_changes(threads=threads)),
+        lambda threads: Equalizer(mesh, 2, frame=frame, threads=threads, block_size=50).equalized([0.5, 1.5]),
     ):
         results = [run(threads) for threads in (1, 2, 4)]
         assert_same_bits(results[0], results[1])
@@ -176,13 +177,11 @@ def test_threads_do_not_change_a_bit(frame, rng, monkeypatch):
 
 
 @pytest.mark.parametrize("frame", ["ADAPTIVE", "PAIRWISE", "B_SPLINE_3"])
-def test_chunks_do_not_change_a_result(frame, rng, monkeypatch):
+def test_chunks_do_not_change_a_result(frame, rng):
     mesh = sheet(rng)
     settings = DenoiseSettings(method="POSITIONS", frame=frame, levels=2, iterations=4)
     plain = denoise(mesh, settings, dtype=np.float64).vertices
-    monkeypatch.setattr(Blocks.__init__, "__defaults__", (0, 57))
-    monkeypatch.setattr(adaptive_level, "SLOTS_PER_CHUNK", 60)
-    assert lengths(denoise(mesh, settings, dtype=np.float64).vertices - plain).max() < 1e-12
+    assert lengths(in_blocks(15, mesh, settings, np.float64) - plain).max() < 1e-12
 
 
 @FRAME

@@ -9,7 +9,6 @@ import pytest
 from checks import assert_same_bits, read_only, wild_mesh
 from framelet.core import SurfaceMesh
 from framelet.core.blocks import Blocks
-from framelet.core.mesh import locality
 from framelet.core.mesh.locality import is_scattered, reorder, spatial_order
 from meshes import MESHES, faces_of, triangle_torus
 
@@ -66,25 +65,23 @@ def test_the_curve_serves_meshes_of_any_size(scale, rng):
     assert sorted(spatial_order(points).tolist()) == list(range(100))
 
 
-def test_only_large_scattered_meshes_are_renumbered(rng, monkeypatch):
+def test_only_large_scattered_meshes_are_renumbered(rng):
     mesh = triangle_torus(120, 100)
     shuffled = reorder(mesh, rng.permutation(mesh.n_vertices)).surface
     faces = rng.permutation(np.array(faces_of(shuffled)))
     shuffled = wild_mesh(shuffled.vertices, faces)
     assert not is_scattered(shuffled)
-    monkeypatch.setattr(locality, "SMALLEST", 1000)
-    assert is_scattered(shuffled)
-    assert not is_scattered(mesh)
-    assert not is_scattered(reorder(shuffled, spatial_order(shuffled.vertices)).surface)
-    assert not is_scattered(SurfaceMesh.from_faces(np.zeros((2000, 3)), [(0, 1, 2)]))
+    assert is_scattered(shuffled, 1000)
+    assert not is_scattered(mesh, 1000)
+    assert not is_scattered(reorder(shuffled, spatial_order(shuffled.vertices)).surface, 1000)
+    assert not is_scattered(SurfaceMesh.from_faces(np.zeros((2000, 3)), [(0, 1, 2)]), 1000)
 
 
-def test_threads_do_not_change_the_numbers(rng, monkeypatch):
-    monkeypatch.setattr(locality, "_ITEMS_AT_ONCE", 100)
+def test_threads_do_not_change_the_numbers(rng):
     mesh = triangle_torus(20, 30)
     order = rng.permutation(mesh.n_vertices)
     one = reorder(mesh, order)
-    with Blocks(3) as blocks:
+    with Blocks(3, block_size=100) as blocks:
         many = reorder(mesh, order, blocks)
     for a, b in zip(vars(one.surface).values(), vars(many.surface).values(), strict=True):
         assert_same_bits(a, b)

@@ -20,14 +20,14 @@ ROUNDING = 1e-12
 
 @KIND
 @BLOCKS
-@pytest.mark.parametrize("at_once", [1, 50, 2**15])
+@pytest.mark.parametrize("at_once", [1, 5, 50, 2**15])
 @pytest.mark.parametrize("is_square", [True, False])
 def test_means(kind, blocks, at_once, is_square, rng):
     mesh = KINDS[kind]()
     rows = [rng.integers(0, mesh.n_vertices, rng.integers(0, 9)) for _ in range(mesh.n_vertices)]
     offset = np.concatenate(([0], np.cumsum([len(row) for row in rows])))
     rows_of_items = Ragged(offset, np.concatenate(rows).astype(np.int32))
-    means = Means(rows_of_items, blocks, is_square=is_square, items_in_block=10, members_at_once=at_once)
+    means = Means(rows_of_items, blocks.with_block_size(at_once), is_square=is_square)
     field = rng.normal(size=(mesh.n_vertices, 4))
     found = means.outward(means.mean(means.inward(field) if is_square else field))
     expected = [field[row].mean(axis=0) if len(row) else np.zeros(4) for row in rows]

@@ -9,7 +9,6 @@ import pytest
 from checks import assert_same_bits, lengths, preset_settings, read_only
 from framelet.core import PRESETS, PreparationCache, Region, SurfaceMesh, denoise, prepare
 from framelet.core import prepared as module
-from framelet.core.blocks import Blocks
 from framelet.core.mesh.locality import reorder
 from framelet.core.preparation_cache import bytes_of
 from framelet.core.settings import used_settings
@@ -60,12 +59,9 @@ def test_a_copy_of_the_mesh_fits(rng):
 
 
 @pytest.mark.parametrize("name", [item.name for item in fields(SurfaceMesh)])
-@pytest.mark.parametrize("threads", [1, 2])
-def test_one_other_number_anywhere_does_not_fit(name, threads, rng, monkeypatch):
-    """Arrays are compared in pieces; here a piece has seven rows."""
-    monkeypatch.setattr(module, "COMPARED_AT_ONCE", 7)
+def test_one_other_number_anywhere_does_not_fit(name, rng):
     mesh = noisy(triangle_grid(4, 4), rng)
-    settings = settings_of("TRI_2", threads=threads)
+    settings = settings_of("TRI_2")
     cache = PreparationCache()
     prepared = cache.prepare(mesh, settings)
     for place in range(getattr(mesh, name).size):
@@ -73,8 +69,7 @@ def test_one_other_number_anywhere_does_not_fit(name, threads, rng, monkeypatch)
         array.flat[place] += 1
         other = with_array(mesh, name, array)
         assert not prepared.fits(other, settings)
-        with Blocks(threads) as blocks:
-            assert prepared.has_topology_of(other, blocks) == (name == "vertices")
+        assert prepared.has_topology_of(other) == (name == "vertices")
     longer = np.concatenate((getattr(mesh, name), getattr(mesh, name)[-1:]))
     assert not prepared.fits(with_array(mesh, name, longer), settings)
     assert prepared.fits(read_only(mesh), settings)
@@ -110,6 +105,8 @@ def test_only_arrays_that_can_be_written_to_are_copied(rng):
     view = mesh.with_vertices(mesh.vertices[:])
     view.vertices.flags.writeable = False  # but not what it is a view of
     assert not np.shares_memory(prepare(view).surface.vertices, mesh.vertices)
+    once = prepare(mesh, is_kept=False)
+    assert once.surface.vertices is mesh.vertices and mesh.vertices.flags.writeable
 
 
 @pytest.mark.parametrize("name", [item.name for item in fields(SurfaceMesh)])

@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 from framelet.core import PRESETS, SurfaceMesh, add_noise, compare, denoise
-from framelet.core.mesh.geometry import signed_volume
+from twins import signed_volume
 
 N_CELLS = 26
 RADII = (0.83, 0.34)

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from checks import TRIANGLE_PRESETS, edge_length, lengths, preset_settings
 from framelet.core import PRESETS, denoise
-from framelet.core.mesh.geometry import signed_volume
 from meshes import MESHES, faces_of, flipped, mixed_sheet, noisy, triangle_grid, triangle_torus, turned_over
+from twins import signed_volume
 
 PRESET = pytest.mark.parametrize("preset", TRIANGLE_PRESETS)
 

@@ -10,7 +10,7 @@ import pytest
 from checks import assert_same_bits
 from framelet.core import BANKS, DEFAULT_PRESET, PRESETS, DenoiseSettings, denoise
 from framelet.core.errors import SettingError
-from framelet.core.methods.shrinkage import SHRINKAGES
+from framelet.core.methods.proximal import SHRINKAGES
 from framelet.core.settings import METHODS, check_setting, used_settings
 from meshes import noisy, triangle_torus
 

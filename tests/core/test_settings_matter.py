@@ -57,4 +57,34 @@ def test_every_method_has_settings_of_its_own():
     named = {method for info in INFO.values() for method in info.methods}
     assert named == {choice.identifier for choice in METHODS}
     own = {name for name, info in INFO.items() if info.methods == ("AUTO",)}
-    assert own == {"strength", "noise", "passes"}
+    assert own == {"noise", "passes"}
+
+
+@pytest.mark.parametrize(
+    ("settings", "same"),
+    [
+        (
+            DenoiseSettings(method="POSITIONS", lambda_=0.2, strength=1.5),
+            DenoiseSettings(method="POSITIONS", lambda_=0.2 * 1.5),
+        ),
+        (
+            DenoiseSettings(method="BILATERAL", sigma_s=0.4, strength=0.5),
+            DenoiseSettings(method="BILATERAL", sigma_s=0.4 * 0.5),
+        ),
+    ],
+)
+def test_strength_is_a_factor_of_what_stands_for_the_noise(settings, same, rng):
+    mesh = noisy(MESHES["irregular grid"](), rng)
+    assert_same_bits(denoise(mesh, settings).vertices, denoise(mesh, same).vertices)
+
+
+@pytest.mark.parametrize("changes", [{}, {"tuning": "NOISE"}, {"sigma_s": 0.0}, {"sigma_s": 0.3}])
+def test_more_strength_takes_more_and_none_nothing(changes, rng):
+    """Also of what is measured: λ from the noise, and the heights of the bilateral filter."""
+    mesh = noisy(MESHES["irregular grid"](), rng)
+    method = "BILATERAL" if "sigma_s" in changes else "POSITIONS"
+    settings = DenoiseSettings(method=method, **changes)
+    reports = [denoise(mesh, settings.with_changes(strength=each)).report for each in (0.0, 0.5, 1.0, 2.0)]
+    moved = [report.displacement_rms for report in reports]
+    assert moved[0] == 0.0 and reports[0].n_moved == 0
+    assert moved[0] < moved[1] < moved[2] < moved[3]

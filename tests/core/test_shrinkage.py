@@ -4,8 +4,19 @@
 
 import numpy as np
 import pytest
-from framelet.core.methods.shrinkage import SHRINKAGES, clipped, shrink
+from framelet.core.methods.proximal import SHRINKAGES, SoftThreshold
 from twins import shrunk
+
+
+def shrink(coefficients, threshold, kind):
+    """Return T(y), what is left of coefficients."""
+    return SoftThreshold(threshold, kind)(coefficients)
+
+
+def clipped(coefficients, threshold, kind):
+    """Return y - T(y), what is taken away."""
+    return SoftThreshold(threshold, kind).removed(coefficients, 1.0)
+
 
 KIND = pytest.mark.parametrize("kind", SHRINKAGES)
 
@@ -93,7 +104,7 @@ def test_wrong_arguments_are_refused(coefficients):
     with pytest.raises(ValueError, match=r"The shrinkage is 'HARD'; choose one of BANDS, VECTOR, SCALAR"):
         shrink(coefficients, 0.1, "HARD")
     for threshold in (-0.5, np.nan):
-        with pytest.raises(ValueError, match=rf"The threshold is {threshold}; it must not be negative"):
+        with pytest.raises(ValueError, match=rf"The weight is {threshold}; it must be 0 or a posi"):
             clipped(coefficients, threshold, "VECTOR")
 
 

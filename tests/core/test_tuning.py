@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 from framelet.core import PRESETS, add_noise, compare, denoise
-from framelet.core.methods.tuning import tuned
+from framelet.core.methods.positions import tuned
 from framelet.core.noise import NoiseEstimate
 from meshes import triangle_grid, triangle_torus
 

@@ -55,17 +55,27 @@ def legend_texts(scene: bpy.types.Scene, shown: bpy.types.PropertyGroup) -> tupl
     """Return the title, the labels from the lowest value up, and the note of the legend."""
     values = tick_values(shown.minimum, shown.maximum, shown.is_signed)
     labels = value_texts(scene, values, shown.unit)
-    note = "" if shown.share >= 99.95 else iface_("{:.1f} % within").format(shown.share)
+    note = "" if shown.share >= 99.95 else iface_("{:.1f} % in this range").format(shown.share)
+    if shown.tolerance:
+        (tolerance,) = value_texts(scene, [shown.tolerance], shown.unit)
+        note = iface_("Green: up to {tolerance}, {share:.3g} %").format(
+            tolerance=tolerance, share=shown.green
+        )
     return iface_(shown.title), labels, note
 
 
-def stripe_colors(is_signed: bool, values: Iterable[float]) -> list[tuple[float, float, float, float]]:
-    """Return the colors of places along the bar, from 0 to 1, as the screen wants them."""
+def stripe_colors(
+    is_signed: bool, values: Iterable[float], tolerance: float | None = None
+) -> list[tuple[float, float, float, float]]:
+    """Return the colors of places along the bar, from 0 to 1, as the screen wants them.
+
+    What is at most `tolerance`, as a share of the largest value, is green.
+    """
     from ...operators.colors.colormaps import DIVERGING, SEQUENTIAL, map_colors
 
     colormap = DIVERGING if is_signed else SEQUENTIAL
     span = colormap.high - colormap.low
-    linear = map_colors(colormap, [colormap.low + value * span for value in values])
+    linear = map_colors(colormap, [colormap.low + value * span for value in values], tolerance)
     red, green, blue = ([_to_srgb(float(part)) for part in linear[:, axis]] for axis in range(3))
     return [(*color, 1.0) for color in zip(red, green, blue, strict=True)]
 
@@ -105,7 +115,8 @@ def _draw() -> None:
     shown = context.window_manager.framelet_band_range
     gpu.state.blend_set("ALPHA")
     _fill([layout.backdrop], [BACKDROP])
-    _fill(layout.stripes, stripe_colors(shown.is_signed, layout.values))
+    tolerance = shown.tolerance / shown.maximum if shown.tolerance else None
+    _fill(layout.stripes, stripe_colors(shown.is_signed, layout.values, tolerance))
     _fill(layout.ticks, [INK] * len(layout.ticks))
     gpu.state.blend_set("NONE")
     blf.size(FONT, FONT_POINTS * ui_scale(context))

@@ -14,6 +14,7 @@ from ...operators.mesh_io import band_storage, mesh_facts
 from ...operators.modifier.recipes import EQUALIZER, recipe_of
 from ...operators.modifier.stack import find_modifier
 from ...operators.properties.band_settings import EQUALIZER_NAMES, GAIN_NAMES, SHOW_NAMES, shown_names
+from ...operators.properties.own_settings import settings_of, shown_settings
 from ...operators.properties.scene_units import length_text
 from ...operators.properties.setting_values import all_values, copy_frame_settings, copy_values, has_effect
 from ...operators.show_band import OBJECT_OT_framelet_show_band
@@ -32,13 +33,13 @@ class VIEW3D_PT_framelet_bands(FrameletPanel, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         """Draw what is stored, and what can be done with it."""
         layout, scene = self.layout, context.scene
-        bands = scene.framelet_bands
-        if not has_effect(scene.framelet.method, "frame"):
+        bands, settings = scene.framelet_bands, shown_settings(context)
+        if not has_effect(settings.method, "frame"):
             column = settings_column(layout)
-            draw_frame(column, scene.framelet, context.active_object)
-            column.prop(scene.framelet, "levels")
+            draw_frame(column, settings, context.active_object)
+            column.prop(settings, "levels")
         operator = layout.operator(OBJECT_OT_framelet_analyze.bl_idname, icon="MOD_MULTIRES")
-        copy_frame_settings(scene.framelet, operator)
+        copy_frame_settings(settings, operator)
         copy_values(bands, operator, ("max_megabytes",))
         obj = context.active_object
         n_bytes = _needed_bytes(scene, obj)
@@ -72,7 +73,7 @@ class VIEW3D_PT_framelet_equalizer(FrameletPanel, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the gains, the group and the buttons; of an object with the modifier, its gains and mask."""
         scene, obj = context.scene, context.active_object
-        equalizer = scene.framelet_equalizer
+        equalizer, settings = scene.framelet_equalizer, shown_settings(context)
         modifier = find_modifier(obj, EQUALIZER)
         if obj is not None and modifier is not None:
             gains = settings_column(self.layout).column(align=True)
@@ -81,8 +82,8 @@ class VIEW3D_PT_framelet_equalizer(FrameletPanel, bpy.types.Panel):
             draw_modifier(self.layout, obj, EQUALIZER)
             return
         column = settings_column(self.layout)
-        if not has_effect(scene.framelet.method, "frame"):
-            draw_frame(column, scene.framelet, obj)
+        if not has_effect(settings.method, "frame"):
+            draw_frame(column, settings, obj)
         column.prop(equalizer, "levels")
         gains = column.column(align=True)
         for name in GAIN_NAMES[: equalizer.levels]:
@@ -97,7 +98,7 @@ class VIEW3D_PT_framelet_equalizer(FrameletPanel, bpy.types.Panel):
             (OBJECT_OT_framelet_live_equalizer, "MODIFIER"),
         ):
             operator = row.operator(each.bl_idname, icon=icon)
-            copy_frame_settings(scene.framelet, operator, ("frame", "stencil", "boundary"))
+            copy_frame_settings(settings, operator, ("frame", "stencil", "boundary"))
             copy_values(equalizer, operator, EQUALIZER_NAMES)
 
 
@@ -106,7 +107,7 @@ def _needed_bytes(scene: bpy.types.Scene, obj: bpy.types.Object | None) -> int |
     facts = mesh_facts.known_facts(obj)
     if facts is None:
         return None
-    values = all_values(scene.framelet)
+    values = all_values(settings_of(obj, scene))
     frame = mesh_facts.resolve_frame(values["frame"], facts)
     return mesh_facts.stored_bytes(frame, values["stencil"], values["levels"], facts)
 

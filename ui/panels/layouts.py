@@ -4,12 +4,17 @@
 
 from __future__ import annotations
 
+import textwrap
+
 import bpy
 from bpy.app.translations import pgettext_iface as iface_
 
 from ...operators.mesh_io import mesh_facts
 from ...operators.properties.scene_units import length_text
 from ...operators.properties.setting_values import has_effect, is_replaced
+
+LETTER = 6.2
+"""Width of a letter in units of the interface, on average."""
 
 
 class FrameletPanel:
@@ -69,6 +74,16 @@ def draw_value(layout: bpy.types.UILayout, label: str, value: str) -> None:
     left.alignment = "RIGHT"
     left.label(text=label)
     split.label(text=value)
+
+
+def draw_text(layout: bpy.types.UILayout, context: bpy.types.Context, text: str) -> None:
+    """Draw a sentence in as many lines as the width of the sidebar asks for; labels are cut off."""
+    width = (
+        260 if context.region is None else context.region.width / (context.preferences.system.ui_scale or 1.0)
+    )
+    lines = textwrap.wrap(text[:1].upper() + text[1:], max(int(width / LETTER) - 8, 16))
+    for number, line in enumerate(lines):
+        layout.label(text=line, translate=False, icon="BLANK1" if number else "INFO")
 
 
 def draw_lengths(

@@ -9,6 +9,7 @@ from bpy.app.translations import pgettext_n as n_
 
 from ...operators.modifier.recipes import DISPLACEMENT
 from ...operators.properties.output_choices import MODIFIER, NEW_OBJECT, SHAPE_KEY
+from ...operators.properties.own_settings import shown_settings
 from .layouts import FrameletPanel, settings_column
 from .modifier_rows import draw_modifier
 
@@ -28,7 +29,7 @@ class VIEW3D_PT_framelet_output(FrameletPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the choice and what it is good for, and the modifier of the active object, if it has one."""
-        settings = context.scene.framelet
+        settings = shown_settings(context)
         column = settings_column(self.layout)
         column.prop(settings, "output")
         if context.mode == "SCULPT" and settings.output == MODIFIER:

@@ -13,11 +13,11 @@ from bpy.app.translations import pgettext_n as n_
 
 from ...operators.denoise import OBJECT_OT_framelet_denoise
 from ...operators.mesh_io import mesh_facts
-from ...operators.modifier.recipes import DISPLACEMENT
-from ...operators.modifier.stack import find_modifier
+from ...operators.own_soon import begin_soon
+from ...operators.properties.own_settings import shown_settings
 from ...operators.properties.scene_units import range_text
 from ...operators.properties.setting_values import copy_settings, has_effect, is_replaced, write_quietly
-from ...operators.run.run_memory import known_side
+from ...operators.run.run_memory import shows_result
 from .layouts import FrameletPanel, draw_settings, draw_value, settings_column
 from .modifier_rows import draw_amount
 from .preset_panel import VIEW3D_PT_framelet_presets
@@ -62,10 +62,11 @@ class VIEW3D_PT_framelet(FrameletPanel, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the button, preset and engine, strength, noise, amount, and the settings that matter most."""
         layout = self.layout
-        settings = context.scene.framelet
+        settings = shown_settings(context)
+        begin_soon(context.active_object)
         _draw_buttons(layout, context)
         draw_progress(layout)
-        draw_preview(layout)
+        draw_preview(layout, context)
         column = settings_column(layout)
         for name in ("preset", "method", "strength", "noise"):
             if has_effect(settings.method, name):
@@ -89,7 +90,7 @@ class VIEW3D_PT_framelet_advanced(FrameletPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the other settings of the engine."""
-        settings = context.scene.framelet
+        settings = shown_settings(context)
         draw_settings(self.layout, settings, ADVANCED_NAMES)
         facts = mesh_facts.known_facts(context.active_object)
         if facts and has_effect(settings.method, "frame"):
@@ -99,13 +100,13 @@ class VIEW3D_PT_framelet_advanced(FrameletPanel, bpy.types.Panel):
 
 def _draw_buttons(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
     """Draw the button that denoises, from the original where the mesh is a result, and one that goes on."""
-    settings, obj = context.scene.framelet, context.active_object
+    settings, obj = shown_settings(context), context.active_object
     row = layout.row(align=True)
     row.scale_y = 1.8
-    is_again = known_side(obj) == "AFTER"
+    is_again = shows_result(obj)
     text = n_("Denoise Again", "Operator") if is_again else n_("Denoise", "Operator")
     copy_settings(settings, row.operator(OBJECT_OT_framelet_denoise.bl_idname, text=text, icon="MOD_SMOOTH"))
-    if is_again and find_modifier(obj, DISPLACEMENT) is None:
+    if is_again:
         operator = row.operator(OBJECT_OT_framelet_denoise.bl_idname, text="", icon="FORWARD")
         copy_settings(settings, operator)
         write_quietly(operator, "from_original", False)

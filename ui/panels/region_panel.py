@@ -8,6 +8,7 @@ import bpy
 from bpy.app.translations import pgettext_iface as iface_
 from bpy.app.translations import pgettext_n as n_
 
+from ...operators.properties.own_settings import shown_settings
 from .layouts import FrameletPanel, draw_value, settings_column
 
 
@@ -20,9 +21,12 @@ class VIEW3D_PT_framelet_mask(FrameletPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the vertex group, and what else holds vertices."""
-        settings = context.scene.framelet
+        settings = shown_settings(context)
         column = settings_column(self.layout)
         _draw_group(column, settings, context.active_object)
+        row = column.row(align=True)
+        row.prop(settings, "face_set")
+        row.operator("object.framelet_pick_face_set", text="", icon="EYEDROPPER")
         column.prop(settings, "keep_mask")
         column.prop(settings, "keep_hidden")
 
@@ -36,12 +40,13 @@ class VIEW3D_PT_framelet_region(FrameletPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the options; those without effect as the others are stay away or are gray."""
-        settings = context.scene.framelet
+        settings = shown_settings(context)
         column = settings_column(self.layout)
         column.prop(settings, "keep_sharp")
         column.prop(settings, "boundary")
         if settings.boundary != "FIXED":
             column.prop(settings, "straighten_borders")
+        column.prop(settings, "flatten_spikes")
         column.separator()
         column.prop(settings, "limit")
         if settings.limit != "NONE":

@@ -12,8 +12,11 @@ from ...operators.add_noise import OBJECT_OT_framelet_add_noise
 from ...operators.compare import OBJECT_OT_framelet_compare
 from ...operators.estimate_noise import OBJECT_OT_framelet_estimate_noise
 from ...operators.properties.scene_units import LEAST_WIDTH, range_text
-from .layouts import FrameletPanel, draw_lengths, draw_value
+from .layouts import FrameletPanel, draw_lengths, draw_text, draw_value
 from .region_panel import draw_repairs
+
+MUCH_VOLUME = 5.0
+"""Change of the volume in percent from which it is shown in red: noise has none, so that shape was taken."""
 
 
 class VIEW3D_PT_framelet_last_run(FrameletPanel, bpy.types.Panel):
@@ -31,12 +34,19 @@ class VIEW3D_PT_framelet_last_run(FrameletPanel, bpy.types.Panel):
             column.label(text="Nothing was denoised yet")
             return
         one = report.n_objects == 1
+        if one and report.names not in bpy.data.objects:
+            column.label(text="The object is gone", icon="INFO")
+            return
+        for hint in report.hints.splitlines():
+            draw_text(column, context, hint)
         draw_value(column, "Object" if one else "Objects", report.names if one else str(report.n_objects))
         draw_value(column, "Moved", iface_("{:,} of {:,}").format(report.n_moved, report.n_vertices))
         draw_lengths(column, context.scene, "RMS", report.displacement_rms, report.displacement_rms_edges)
         draw_lengths(column, context.scene, "Largest", report.displacement_max, report.displacement_max_edges)
         volume = f"{report.volume_change:+.2f} %"
-        draw_value(column, "Volume", volume if report.is_closed else "Open mesh")
+        row = column.row()
+        row.alert = report.is_closed and abs(report.volume_change) > MUCH_VOLUME
+        draw_value(row, "Volume", volume if report.is_closed else "Open mesh")
         draw_value(column, "Flipped Faces", f"{report.flipped_faces:,}")
         draw_repairs(column, report)
         for label, name in (

@@ -12,6 +12,7 @@ from ...operators.live_preview import OBJECT_OT_framelet_apply_preview, OBJECT_O
 from ...operators.preview.current_preview import current_preview, preview_message
 from ...operators.run.current_run import current_run
 from ...operators.run.run_display import progress_text
+from .layouts import draw_text
 
 
 def draw_progress(layout: bpy.types.UILayout) -> None:
@@ -24,7 +25,7 @@ def draw_progress(layout: bpy.types.UILayout) -> None:
     row.operator(OBJECT_OT_framelet_cancel.bl_idname, text="", icon="X")
 
 
-def draw_preview(layout: bpy.types.UILayout) -> None:
+def draw_preview(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
     """Draw the toggle of the preview and, while it is on, the button that keeps it."""
     session = current_preview()
     row = layout.row(align=True)
@@ -40,6 +41,10 @@ def draw_preview(layout: bpy.types.UILayout) -> None:
             icon="SORTTIME" if is_busy else "HIDE_OFF",
             depress=True,
         )
-        row.operator(OBJECT_OT_framelet_apply_preview.bl_idname, icon="CHECKMARK")
+        # The bar takes the place of the button, so that no slider moves under the mouse.
+        if is_busy:
+            row.progress(factor=session.fraction, text=f"{session.fraction:.0%}")
+        else:
+            row.operator(OBJECT_OT_framelet_apply_preview.bl_idname, icon="CHECKMARK")
     if preview_message():
-        layout.label(text=preview_message(), translate=False, icon="INFO")
+        draw_text(layout.column(align=True), context, preview_message())

@@ -53,7 +53,7 @@ class VIEW3D_PT_framelet_see(FrameletPanel, bpy.types.Panel):
             for quantity, text, icon in buttons:
                 if quantity == shown:
                     row.operator(OBJECT_OT_framelet_hide_colors.bl_idname, text=text, icon=icon, depress=True)
-                    continue
+                    text, icon = "", "FILE_REFRESH"  # for another range
                 operator = row.operator(OBJECT_OT_framelet_heat_map.bl_idname, text=text, icon=icon)
                 write_quietly(operator, "quantity", quantity)
                 copy_values(heat, operator, HEAT_NAMES)

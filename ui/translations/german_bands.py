@@ -147,7 +147,14 @@ TEXTS = {
     "The width that gets the last color, in edge lengths: larger makes all colors paler": (
         "Die Breite mit der letzten Farbe, in Kantenlängen: größer macht alle Farben blasser"
     ),
-    "{:.1f} % within": "{:.1f} % darin",
+    "{:.1f} % in this range": "{:.1f} % in diesem Bereich",
+    "Green: up to {tolerance}, {share:.3g} %": "Grün: bis {tolerance}, {share:.3g} %",
+    "What is at most this far off is green, in scene units: larger makes more green; 0 leaves green out": (
+        "Was höchstens so weit abweicht, ist grün, in Szeneneinheiten: größer macht mehr grün; 0 lässt Grün weg"
+    ),
+    "What is at most this far off is green, in degrees: larger makes more green; 0 leaves green out": (
+        "Was höchstens so weit abweicht, ist grün, in Grad: größer macht mehr grün; 0 lässt Grün weg"
+    ),
     # Equalizer
     "Equalizer": "Equalizer",
     "Number of scales that have a gain: larger reaches coarser details": (

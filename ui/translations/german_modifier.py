@@ -43,7 +43,7 @@ TEXTS = {
     "The selected meshes have no modifier of Framelet": "Die ausgewählten Netze haben keinen Modifikator von Framelet",
     "The side that is not shown now": "Die Seite, die gerade nicht gezeigt wird",
     "What denoising moved": "Was das Entrauschen bewegt hat",
-    "Where a mesh still is what the last run made, start from where its vertices were before": "Wo ein Netz noch das ist, was der letzte Lauf ergab, dort beginnen, wo seine Punkte vorher waren",
+    "Where a mesh still is what the last run made, start from where its vertices were before; False, if given, starts from the result, also from that in a modifier": "Wo ein Netz noch das ist, was der letzte Lauf ergab, dort beginnen, wo seine Punkte vorher waren; ausdrücklich False beginnt beim Ergebnis, auch bei dem in einem Modifikator",
     "Where the run moved them": "Wohin der Lauf sie bewegt hat",
     "Where the vertices were before the run": "Wo die Punkte vor dem Lauf waren",
     "Which modifier of Framelet": "Welcher Modifikator von Framelet",

@@ -46,6 +46,24 @@ TEXTS = {
     "Frayed and zigzag open borders become as smooth as the inside: each follows its own course, and corners stay corners": (
         "Ausgefranste und gezackte offene Ränder werden so glatt wie das Innere: jeder folgt seinem Verlauf, und Ecken bleiben Ecken"
     ),
+    "Only vertices of the face set with this number move, those on its border included; another number is another set, 0 all of them": (
+        "Nur Punkte des Face-Sets mit dieser Nummer bewegen sich, auch die an seinem Rand; eine andere Nummer ist ein anderes Set, 0 sind alle"
+    ),
+    "Pick Face Set": "Face-Set wählen",
+    "Click a face of the active mesh: only its face set is denoised": (
+        "Auf eine Fläche des aktiven Netzes klicken: nur ihr Face-Set wird entrauscht"
+    ),
+    "Click a face of the set to denoise; Esc or Right Click: Cancel": (
+        "Auf eine Fläche des Sets klicken, das entrauscht werden soll; Esc oder Rechtsklick: Abbrechen"
+    ),
+    "No face of the active mesh is there": "Dort ist keine Fläche des aktiven Netzes",
+    "Face set {number}": "Face-Set {number}",
+    "level {level} of Multires, the finest, was denoised": (
+        "Stufe {level} von Multires, die feinste, wurde entrauscht"
+    ),
+    "Single vertices and small clusters far off their surroundings come down to them first; Automatic does so by itself, the other engines take them for shape": (
+        "Einzelne Punkte und kleine Gruppen weit ab von ihrer Umgebung kommen zuerst auf diese herunter; Automatisch tut das von selbst, die anderen Verfahren halten sie für Form"
+    ),
     "Sculpt Mask": "Skulpturmaske",
     "Vertices move by one minus their sculpt mask, in Object Mode too: masked ones stay where they are": (
         "Punkte bewegen sich um eins minus ihre Skulpturmaske, auch im Objektmodus: maskierte bleiben, wo sie sind"
@@ -162,6 +180,12 @@ TEXTS = {
     "von {edges:.2g} Kantenlängen liegen; verschieben Sie zuerst die Punkte dorthin",
     "; clean already": "; schon sauber",
     "; Strength is 0": "; Stärke ist 0",
+    "it is made of voxels: the preset Marching Cubes / CT rounds the steps": (
+        "es besteht aus Voxeln: die Vorgabe Marching Cubes / CT rundet die Stufen"
+    ),
+    "its heights are in whole steps: the preset Paper Tri-2 takes them away": (
+        "seine Höhen haben ganze Stufen: die Vorgabe Artikel Tri-2 nimmt sie weg"
+    ),
     "the object is scaled unevenly: apply its scale (Ctrl A) and denoise again": (
         "das Objekt ist ungleich skaliert: seine Skalierung anwenden (Strg A) und noch einmal entrauschen"
     ),

@@ -3,6 +3,10 @@
 """German for measurements and reports in the sidebar."""
 
 TEXTS = {
+    "The object is gone": "Das Objekt ist nicht mehr da",
+    "The mesh has too many vertices for a preview; press Denoise": (
+        "Das Netz hat zu viele Punkte für eine Vorschau; drücken Sie Entrauschen"
+    ),
     "Framelet": "Framelet",
     "Advanced": "Erweitert",
     "Last Run": "Letzter Lauf",

@@ -72,10 +72,10 @@ TEXTS = {
         "Bilaterales Filtern (Fleishman et al. 2003), der Vergleichsmaßstab des Artikels"
     ),
     "Strength": "Stärke",
-    "How strong the noise is taken to be, in units of what the mesh shows: larger removes more noise and more "
-    "detail; 1 trusts the mesh, 0 changes nothing": (
-        "Für wie stark das Rauschen gehalten wird, in Einheiten dessen, was das Netz zeigt: größer entfernt mehr "
-        "Rauschen und mehr Einzelheiten; 1 vertraut dem Netz, 0 ändert nichts"
+    "How strong the noise is taken to be, in units of what the mesh shows, or of λ and of the height below: "
+    "larger removes more noise and more detail; 1 trusts them, 0 changes nothing": (
+        "Für wie stark das Rauschen gehalten wird, in Einheiten dessen, was das Netz zeigt, oder von λ und der "
+        "Höhe darunter: größer entfernt mehr Rauschen und mehr Einzelheiten; 1 vertraut ihnen, 0 ändert nichts"
     ),
     "How wide the noise is: fine relief and wide noise look alike, and nobody but you knows which it is": (
         "Wie breit das Rauschen ist: feines Relief und breites Rauschen sehen gleich aus, und nur Sie wissen, was "

@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from framelet.core import add_noise, compare, connect
-from framelet.core.mesh.geometry import mean_edge_length, signed_volume, vertex_normals
+from framelet.core.mesh.geometry import mean_edge_length, vertex_normals
 from meshes import faces_of
-from twins import newell
+from twins import newell, signed_volume
 
 FOLDER = Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER))

@@ -68,8 +68,8 @@ def test_options_without_effect_are_refused(key, item):
     [
         (["--lambda", "1"], "--lambda has no effect with the preset auto; add --preset positions."),
         (
-            ["--preset", "bilateral", "--strength", "1"],
-            "--strength has no effect with --preset bilateral; use --preset auto.",
+            ["--preset", "bilateral", "--passes", "1"],
+            "--passes has no effect with --preset bilateral; use --preset auto.",
         ),
         (
             ["--preset", "tri-1", "--method", "auto", "--lambda", "1"],

@@ -72,16 +72,12 @@ def expected_fit(mesh, normals, n_steps, held=(), weights=None):
     return mesh.vertices + motion.reshape(-1, 3), energies, values
 
 
-@pytest.fixture
-def as_solved(monkeypatch):
-    """The linear problem alone, without outliers."""
-    monkeypatch.setattr(unfolding, "ROUNDS", 0)
-    monkeypatch.setattr(screened_fit, "LEAST_OUTLIERS", 2)
+AS_SOLVED = {"least_outliers": 2.0, "rounds": 0}
+"""The linear problem alone, without outliers."""
 
 
 @FIT
 @pytest.mark.parametrize("is_held", [False, True])
-@pytest.mark.usefixtures("as_solved")
 def test_the_fit_is_a_polynomial_in_the_dense_problem(name, is_held, rng):
     """And comes near the minimum of the energy; what is held keeps its bits."""
     mesh = noisy(FITTED[name](), rng)
@@ -89,7 +85,7 @@ def test_the_fit_is_a_polynomial_in_the_dense_problem(name, is_held, rng):
     is_free = rng.random(mesh.n_vertices) < 0.6 if is_held else np.ones(mesh.n_vertices, bool)
     held = np.flatnonzero(~is_free)
     given = points.copy()
-    found = fit_of(mesh).fit(points, normals, is_free)
+    found = fit_of(mesh).fit(points, normals, is_free, **AS_SOLVED)
     expected, (before, after, best), values = expected_fit(mesh, normals, screened_fit.STEPS, held)
     assert np.abs(found.T - expected).max() < SINGLE
     assert_same_bits(found[:, held], points[:, held])
@@ -103,9 +99,8 @@ def test_the_fit_is_a_polynomial_in_the_dense_problem(name, is_held, rng):
 @pytest.mark.parametrize("is_held", [False, True])
 @pytest.mark.parametrize("name", ["torus", "quads", "sheet"])
 @pytest.mark.usefixtures("exact")
-def test_outliers_are_held_at_the_height_of_their_rings(name, is_held, rng, monkeypatch):
+def test_outliers_are_held_at_the_height_of_their_rings(name, is_held, rng):
     """Two fits, the second from where outliers are as high as those around that are none."""
-    monkeypatch.setattr(unfolding, "ROUNDS", 0)
     clean = {"torus": triangle_torus, "quads": quad_torus, "sheet": triangle_grid}[name](14, 16)
     mesh = spiked(noisy(clean, rng, 0.02), rng)
     normals, points = np.ascontiguousarray(normals_of(clean).T, np.float32), points_of(mesh)
@@ -116,7 +111,7 @@ def test_outliers_are_held_at_the_height_of_their_rings(name, is_held, rng, monk
     start, sure = slow_start(mesh.vertices, first, is_free, ring_matrix(mesh, far))
     assert sure > 1e-3 and 3 <= (start != mesh.vertices).any(axis=1).sum() < 20
     given = points.copy()
-    found = fit_of(mesh).fit(points, normals, is_free)
+    found = fit_of(mesh).fit(points, normals, is_free, rounds=0)
     second = expected_fit(mesh.with_vertices(start), normals, screened_fit.STEPS, held, weights)[0]
     assert np.abs(found.T - second).max() < 5 * SINGLE
     assert np.abs(first - second).max() > 0.1
@@ -168,7 +163,7 @@ def test_gaussian_noise_has_no_outliers(rng):
     solved = fit._solved(
         points_of(mesh), normals, fit._needle_weights(points_of(mesh)), screened_fit.STEPS, None
     )
-    assert fit._without_outliers(points_of(mesh), solved, None) is None
+    assert fit._without_outliers(points_of(mesh), solved, None, None) is None
 
 
 def test_needles_count_less(rng):

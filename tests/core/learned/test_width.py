@@ -31,8 +31,9 @@ def test_the_choice_is_a_regression(rng):
     rows = rng.normal(size=(200, N_GLOBAL)) * 3 * arrays["scale"] + arrays["mean"]
     expected = []
     for row in rows:
-        hidden = np.tanh(((row - arrays["mean"]) / arrays["scale"]) @ arrays["enter"] + arrays["enter_bias"])
-        expected.append(float(hidden @ arrays["leave"]) > float(arrays["least"]))
+        z = np.clip((row - arrays["mean"]) / arrays["scale"], -3, 3)
+        products = [z[i] * z[j] for i in range(len(z)) for j in range(i, len(z))]
+        expected.append(float(np.dot([1, *z, *products], arrays["weights"])) > 0)
     found = find_wide(rows.astype(np.float32))
     assert found.dtype == bool and found.tolist() == expected
     assert 0 < found.sum() < len(found)

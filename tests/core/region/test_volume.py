@@ -7,7 +7,6 @@ import pytest
 from checks import assert_same_bits, edge_length, lengths
 from framelet.core import PRESETS, DenoiseSettings, Region, denoise
 from framelet.core.limits.volume import volume_offset
-from framelet.core.mesh.geometry import signed_volume
 from meshes import (
     flipped,
     noisy,
@@ -20,6 +19,7 @@ from meshes import (
     union,
 )
 from region_cases import METHODS
+from twins import signed_volume
 
 SHRINKING = DenoiseSettings(method="POSITIONS", frame="BOX_SPLINE_111", lambda_=2.0, iterations=30)
 MESHES = {

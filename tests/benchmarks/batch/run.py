@@ -1,0 +1,81 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Measure how many small meshes a batch does in a second, and what a file costs beyond its work.
+
+    python3 .ci/environment.py run core -- tests/benchmarks/batch/run.py
+
+Each way is one run of the command line; with Dask the start of its processes is counted by itself. The load
+says how busy the computer was: with more than one for each core the figures say little.
+"""
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[3]
+PROGRAM = "import sys; from framelet.operators.command_line import main; sys.exit(main())"
+WAYS = {"one after the other": (), "--jobs 1": ("--jobs", "1"), "--jobs 2": ("--jobs", "2")}
+TIMEOUT = 3600
+
+
+def main():
+    """Run the benchmark."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--files", type=int, default=200)
+    parser.add_argument("--side", type=int, default=32, help="vertices along each side of a mesh")
+    parser.add_argument("--preset", default="auto")
+    arguments = parser.parse_args()
+    print("| | Start | A file | Its work | Beyond, for each process | Load |\n|---|---|---|---|---|---|")
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        (folder / "framelet").symlink_to(ROOT)
+        (folder / "scans").mkdir()
+        for number in range(arguments.files):
+            write_sheet(folder / "scans" / f"{number}.obj", arguments.side, number)
+        for way, words in WAYS.items():
+            n_jobs = int(words[1]) if words else 1
+            start, each, work = measure(folder, way.replace(" ", "_"), words, arguments.preset)
+            print(
+                f"| {way} | {start:.1f} s | {1e3 * each:.0f} ms | {1e3 * work:.0f} ms | "
+                f"{1e3 * (n_jobs * each - work):.0f} ms | {os.getloadavg()[0]:.1f} |",
+                flush=True,
+            )
+
+
+def measure(folder, name, words, preset):
+    """Return seconds until the first file was done, from one to the next, and of the work on one."""
+    environment = os.environ | {"PYTHONPATH": str(folder), "OPENBLAS_NUM_THREADS": "1"}
+    command = [sys.executable, "-c", PROGRAM, "batch", str(folder / "scans"), "--out", str(folder / name)]
+    began = time.time()
+    subprocess.run(
+        [*command, "--quiet", "--preset", preset, *words], env=environment, check=True, timeout=TIMEOUT
+    )
+    rows = [json.loads(line) for line in (folder / name / "report.jsonl").read_text().splitlines()]
+    ended = sorted(row["ended"] for row in rows)
+    each = (ended[-1] - ended[0]) / (len(ended) - 1)
+    # The first file of each process loads the program.
+    work = float(np.median([sum(row["seconds"].values()) for row in rows]))
+    return ended[0] - began, each, work
+
+
+def write_sheet(path, side, seed):
+    """Write a noisy sheet of side * side vertices."""
+    x, y = np.meshgrid(np.arange(side), np.arange(side), indexing="ij")
+    z = np.random.default_rng(seed).normal(0, 0.1, x.shape)
+    number = np.arange(side * side).reshape(side, side) + 1
+    a, b = number[:-1, :-1].ravel(), number[1:, :-1].ravel()
+    c, d = number[1:, 1:].ravel(), number[:-1, 1:].ravel()
+    lines = [f"v {p} {q} {r:.6f}" for p, q, r in zip(x.ravel(), y.ravel(), z.ravel(), strict=True)]
+    lines += [f"f {p} {q} {r}\nf {p} {r} {s}" for p, q, r, s in zip(a, b, c, d, strict=True)]
+    path.write_text("\n".join(lines) + "\n")
+
+
+if __name__ == "__main__":
+    main()
