@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 
 from .face_graph import FACES_AT_ONCE, FaceGraph, Polygons
 from .features import FLOOR, N_CONTEXT, Features
+from .rows import Bias, Matrix, product, tiled, times
 from .scales import N_SCALES, Scales
 from .scratch import Scratch
 
@@ -39,13 +40,8 @@ CLIP = np.float32(6)
 LEAST_AREA = np.float32(1e-4)
 """Least area of a face, in squares of the local unit, so that weights stay finite."""
 
-SMALL_PRODUCT = 2**17
-"""Multiplications up to which OpenBLAS works on the calling thread: half of its limit."""
-
 WEIGHTS = {width: Path(__file__).with_name(f"{width}.npz") for width in ("fine", "wide")}
 """The arrays that come with Framelet: for noise from vertex to vertex, and for noise that neighbors share."""
-
-Matrix = NDArray[np.float32]
 
 
 class Layer(NamedTuple):
@@ -67,27 +63,6 @@ class Layer(NamedTuple):
     update_bias: Matrix
 
 
-class Bias:
-    """Rows that are added for the faces or pairs of a block: those of their islands.
-
-    Parameters
-    ----------
-    rows : ndarray, shape (I, n), float32
-        A row for each island.
-    island : ndarray, shape (F,), intp, or None
-        The island of each face; None if there is one.
-    """
-
-    def __init__(self, rows: Matrix, island: NDArray[np.intp] | None) -> None:
-        self._island = island
-        # NumPy adds whole blocks several times faster than short rows.
-        self._rows = np.tile(rows, (FACES_AT_ONCE, 1)) if island is None else rows
-
-    def of(self, faces: slice | NDArray[np.int32], n: int) -> Matrix:
-        """Return the rows for n faces, shape (n, ...)."""
-        return self._rows[:n] if self._island is None else self._rows.take(self._island[faces], axis=0)
-
-
 class Net:
     """The learned arrays.
 
@@ -100,11 +75,11 @@ class Net:
     def __init__(self, arrays: Mapping[str, Matrix]) -> None:
         self.face_mean, self.face_scale = arrays["face_mean"], arrays["face_scale"]
         self.edge_mean, self.edge_scale = arrays["edge_mean"], arrays["edge_scale"]
-        self.enter, self.enter_bias = arrays["enter.weight"].T, _tiled(arrays["enter.bias"])
+        self.enter, self.enter_bias = arrays["enter.weight"].T, tiled(arrays["enter.bias"])
         self.begin, self.begin_bias = arrays["begin.weight"].T, arrays["begin.bias"]
         self.context, self.context_bias = arrays["context.weight"].T, arrays["context.bias"]
         self.shift, self.shift_bias = arrays["shift.weight"].T, arrays["shift.bias"]
-        self.leave, self.leave_bias = arrays["leave.weight"].T, _tiled(arrays["leave.bias"])
+        self.leave, self.leave_bias = arrays["leave.weight"].T, tiled(arrays["leave.bias"])
         self.repeats = arrays["repeats"].tolist()
         self.layers = [_layer(arrays, f"layers.{number}.") for number in range(len(self.repeats))]
 
@@ -191,9 +166,9 @@ class NetRun:
             part -= net.face_mean
             part /= net.face_scale
             np.clip(part, -CLIP, CLIP, out=part)
-            hidden = _product(part, net.enter, net.enter_bias)
+            hidden = product(part, net.enter, net.enter_bias)
             np.maximum(hidden, np.float32(0), out=hidden)
-            state = _product(hidden, net.begin, begin_bias.of(faces, len(part)))
+            state = product(hidden, net.begin, begin_bias.of(faces, len(part)))
             self.state[faces] = state
             self._offer(0, faces, state)
 
@@ -220,7 +195,7 @@ class NetRun:
     def _offer(self, number: int, faces: slice, state: Matrix) -> None:
         """Tell the pairs of some faces what a layer makes of their state."""
         bias = self.hidden_bias[number].of(faces, len(state))
-        _product(state, self.net.layers[number].from_faces, bias, self.offer[faces])
+        product(state, self.net.layers[number].from_faces, bias, self.offer[faces])
 
     def normals(self, tick: Callable[[], None]) -> NDArray[np.float32]:
         """Go through all layers and return unit normals, shape (3, F)."""
@@ -239,7 +214,7 @@ class NetRun:
         normals = np.empty(self.vectors.shape[:2], np.float32)
 
         def leave(start: int, stop: int) -> None:
-            share = _product(self.state[start:stop], self.net.leave, self.net.leave_bias)
+            share = product(self.state[start:stop], self.net.leave, self.net.leave_bias)
             for axis in range(3):
                 part = share * self.vectors[axis, start:stop]
                 normals[axis, start:stop] = part.sum(axis=1)
@@ -266,12 +241,12 @@ class NetRun:
             energies += apart
         np.log(energies, out=energies)
         hidden, part = self.hidden[start:stop], scratch("part", n, HIDDEN)
-        _times(self.edge[start:stop], layer.from_pairs, hidden)
-        hidden += _times(energies, layer.from_energies, part)
+        times(self.edge[start:stop], layer.from_pairs, hidden)
+        hidden += times(energies, layer.from_energies, part)
         hidden += np.take(self.offer, one, axis=0, out=part, mode="clip")
         hidden += np.take(self.offer, two, axis=0, out=part, mode="clip")
         np.maximum(hidden, self.zeros[:n], out=hidden)
-        gates = _times(hidden, layer.gains, self.gates[start:stop])
+        gates = times(hidden, layer.gains, self.gates[start:stop])
         gates += self.gain_bias[number].of(one, n)
         np.tanh(gates, out=gates)
         gates += np.float32(1)
@@ -304,17 +279,17 @@ class NetRun:
         if not is_last:
             return
         state, part = self.state[faces], scratch("part", n, HIDDEN)
-        mixing = _product(state, layer.mixing, self.mixing_bias[number].of(faces, n), gate)
+        mixing = product(state, layer.mixing, self.mixing_bias[number].of(faces, n), gate)
         np.tanh(mixing, out=mixing)
         lengths = scratch("energies", n, N_SCALES)
         lengths.fill(FLOOR)
         for axis, own in enumerate(total):
-            mixed = _times(own, layer.channels, step)
+            mixed = times(own, layer.channels, step)
             mixed *= mixing
             own += mixed
             self.following[axis, faces] = own
             # Differences of scales, and the finest scale itself, by a constant matrix.
-            apart = _times(own, _APART, step)
+            apart = times(own, _APART, step)
             apart *= apart
             lengths += apart
         np.log(lengths, out=lengths)
@@ -324,11 +299,11 @@ class NetRun:
         for pairs in polygons.pairs[1:]:
             around += np.take(self.hidden, pairs, axis=0, out=part, mode="clip")
         around *= np.float32(1.0 / len(polygons.pairs))
-        collected = _product(state, layer.collect_state, layer.collect_bias, scratch("collected", n, HIDDEN))
-        collected += _times(around, layer.collect_around, part)
-        collected += _times(lengths, layer.collect_lengths, part)
+        collected = product(state, layer.collect_state, layer.collect_bias, scratch("collected", n, HIDDEN))
+        collected += times(around, layer.collect_around, part)
+        collected += times(lengths, layer.collect_lengths, part)
         np.maximum(collected, self.zeros[:n], out=collected)
-        state += _product(collected, layer.update, layer.update_bias, part)
+        state += product(collected, layer.update, layer.update_bias, part)
         if number + 1 < len(self.net.layers):
             self._offer(number + 1, faces, state)
 
@@ -361,38 +336,7 @@ def _layer(arrays: Mapping[str, Matrix], prefix: str) -> Layer:
         collect[:HIDDEN],
         collect[HIDDEN : 2 * HIDDEN],
         collect[2 * HIDDEN :],
-        _tiled(bias("collect")),
+        tiled(bias("collect")),
         weight("update"),
-        _tiled(bias("update")),
+        tiled(bias("update")),
     )
-
-
-def _tiled(bias: Matrix) -> Matrix:
-    """Return a bias repeated over a block: NumPy adds whole blocks several times faster than short rows."""
-    return np.tile(bias, (FACES_AT_ONCE, 1))
-
-
-def _times(rows: Matrix, matrix: Matrix, out: Matrix | None = None) -> Matrix:
-    """Return rows times a matrix, in pieces that are too small for a matrix library to start threads for."""
-    n_inner, n_columns = matrix.shape
-    if out is None:
-        out = np.empty((len(rows), n_columns), np.float32)
-    size = SMALL_PRODUCT // (n_inner * n_columns)
-    n_whole = len(rows) // size
-    whole = n_whole * size
-    if n_whole:
-        np.matmul(
-            rows[:whole].reshape(n_whole, size, n_inner),
-            matrix,
-            out=out[:whole].reshape(n_whole, size, n_columns),
-        )
-    if whole < len(rows):
-        np.matmul(rows[whole:], matrix, out=out[whole:])
-    return out
-
-
-def _product(rows: Matrix, matrix: Matrix, bias: Matrix, out: Matrix | None = None) -> Matrix:
-    """Return rows times a matrix plus a bias."""
-    result = _times(rows, matrix, out)
-    result += bias[: len(rows)]
-    return result

@@ -13,6 +13,7 @@ from checks import assert_same_bits, random_rotation
 from framelet.core import connect
 from framelet.core.blocks import Blocks
 from framelet.core.learned import net
+from framelet.core.learned import rows as rows_module
 from framelet.core.learned.engine import FaceEngine
 from kinds import ALONE, KINDS
 from learned_twins import pairs_of, slow_net
@@ -138,11 +139,11 @@ def test_it_ticks_after_each_layer(rng):
 
 
 def test_large_products_are_taken_in_pieces(rng, monkeypatch):
-    monkeypatch.setattr(net, "SMALL_PRODUCT", 300)
+    monkeypatch.setattr(rows_module, "SMALL_PRODUCT", 300)
     rows, matrix = rng.normal(size=(101, 7)).astype(np.float32), rng.normal(size=(7, 5)).astype(np.float32)
-    assert np.abs(net._times(rows, matrix) - rows @ matrix).max() < 1e-5
+    assert np.abs(rows_module.times(rows, matrix) - rows @ matrix).max() < 1e-5
     out = np.full((101, 5), np.nan, np.float32)
-    assert net._times(rows, matrix, out) is out and np.isfinite(out).all()
+    assert rows_module.times(rows, matrix, out) is out and np.isfinite(out).all()
 
 
 @pytest.mark.parametrize("width", net.WEIGHTS)

@@ -163,7 +163,7 @@ def test_gaussian_noise_has_no_outliers(rng):
     solved = fit._solved(
         points_of(mesh), normals, fit._needle_weights(points_of(mesh)), screened_fit.STEPS, None
     )
-    assert fit._without_outliers(points_of(mesh), solved, None, None) is None
+    assert fit._without_outliers(points_of(mesh), solved, None, None, screened_fit.LEAST_OUTLIERS) is None
 
 
 def test_needles_count_less(rng):
