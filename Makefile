@@ -65,7 +65,7 @@ numbers: ## Compare the results of NumPy 1.26 and 2
 	  --same-as build/golden/numpy-1.csv
 
 .PHONY: hunt
-hunt: hunt-meshes fuzz kills coverage mutants ## Look for what breaks it, at length and by new examples; for a night
+hunt: hunt-meshes fuzz kills hunt-blender coverage mutants ## Look for what breaks it, at length and by new examples; for a night
 
 .PHONY: hunt-meshes
 hunt-meshes: ## Denoise 2,000 meshes that nobody would think of, by each property

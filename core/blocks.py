@@ -128,7 +128,12 @@ class Blocks:
 
         pool = self._owner._pool
         n_helpers = 0 if pool is None else min(self._owner.n_threads, len(starts)) - 1
-        helpers = [pool.submit(work, asks=False) for _ in range(n_helpers)] if pool is not None else []
+        helpers = []
+        for _ in range(n_helpers):
+            try:
+                helpers.append(pool.submit(work, asks=False))  # type: ignore[union-attr]
+            except RuntimeError:
+                break  # where memory ends no thread starts; those that there are do the work
         n_taken = work(asks=True)
         for helper in helpers:
             if not helper.cancel():

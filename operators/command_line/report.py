@@ -84,6 +84,9 @@ def run(arguments: argparse.Namespace) -> None:
         rows = list(read_rows(paths).values())
     except PlanError as error:
         raise CommandError(str(error)) from error
+    if not rows and any(path.stat().st_size for path in paths):
+        names = ", ".join(map(str, paths))
+        raise CommandError(f"{names} holds no row of a batch; name the report of one.", USAGE_ERROR)
     messages = Messages(arguments.quiet)
     for line in summary_lines(rows, arguments.worst):
         messages.say(line)

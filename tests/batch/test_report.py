@@ -89,6 +89,14 @@ def test_what_cannot_be_reported(tmp_path, capsys):
     assert report(tmp_path) == 0
 
 
+def test_a_file_that_is_no_report_is_told(tmp_path, capsys):
+    (tmp_path / "mesh.obj").write_text(obj(7))
+    assert report(tmp_path / "mesh.obj") == 2
+    assert "mesh.obj holds no row of a batch; name the report of one." in capsys.readouterr().err
+    (tmp_path / "report.jsonl").touch()  # of a batch that was killed at once
+    assert report(tmp_path / "report.jsonl") == 0
+
+
 def test_what_needs_a_look():
     row = {"status": "done", "folded_faces": 0, "folded_faces_before": 2, "n_moved": 5, "noise": [None]}
     assert look_of(row) == (0.0, [])

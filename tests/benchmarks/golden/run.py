@@ -10,7 +10,7 @@ Where a fold may be taken back in two ways, the last bit of the input decides, a
 differ by as much as half an edge. How many that are for one and the same code shows `run.py OLD OLD --shake`,
 where the second run gets positions that are moved as little as single precision allows.
 
-Weights of the net are results of training, not code: `--weights` puts one file into both.
+Weights of the net are results of training, not code: `--weights` puts those of one folder into both.
 """
 
 import argparse
@@ -77,7 +77,11 @@ def parsed(words):
     parser.add_argument("--meshes", type=Path, default=ROOT.parent / "shared" / "meshes")
     parser.add_argument("--kinds", nargs="+", default=GOOD, help="folders of meshes")
     parser.add_argument("--most", type=int, default=10**9, help="leave out meshes with more bytes than this")
-    parser.add_argument("--weights", type=Path, help="a weights.npz that both use")
+    parser.add_argument(
+        "--weights",
+        type=Path,
+        help="a folder with the arrays of the nets, such as core/learned, that both use",
+    )
     parser.add_argument(
         "--shake", action="store_const", const=SHAKE, default=0.0, help="move the input of NEW by a last bit"
     )
@@ -128,7 +132,7 @@ def write_results(checkout, path, out, weights, shake):
 
 
 def loaded_core(checkout, weights):
-    """Return `framelet.core` of a checkout, whose net has the weights of a file if one is given."""
+    """Return `framelet.core` of a checkout, whose nets have the arrays of a folder if one is given."""
     spec = importlib.util.spec_from_file_location(
         "framelet", checkout / "__init__.py", submodule_search_locations=[str(checkout)]
     )
@@ -137,8 +141,10 @@ def loaded_core(checkout, weights):
     spec.loader.exec_module(package)
     if weights:
         net = importlib.import_module("framelet.core.learned.net")
-        assert net.WEIGHTS.is_file()
-        net.WEIGHTS = Path(weights)
+        for width, path in net.WEIGHTS.items():
+            net.WEIGHTS[width] = Path(weights) / path.name
+        choice = importlib.import_module("framelet.core.learned.width")
+        choice.ARRAYS = Path(weights) / choice.ARRAYS.name
     return importlib.import_module("framelet.core")
 
 
