@@ -192,7 +192,9 @@ def find_features(
         )
 
     graph.for_faces(energies_at)
-    parts = [slice(None)] if island is None else faces_of_islands(island)
+    parts: list[slice | NDArray[np.intp]] = [slice(None)]
+    if island is not None:
+        parts = [*faces_of_islands(island)]
     counted = parts if measured is None else [measured.of(part) for part in parts]
     quantiles = np.array([_quantiles(spread[own], is_flat[own]) for own in counted])
     stronger = quantiles + np.float32(log_strength) * _BY_STRENGTH

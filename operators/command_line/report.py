@@ -84,7 +84,8 @@ def run(arguments: argparse.Namespace) -> None:
         rows = list(read_rows(paths).values())
     except PlanError as error:
         raise CommandError(str(error)) from error
-    if not rows and any(path.stat().st_size for path in paths):
+    # A line that a kill cut off is what a batch may leave; whole lines without a row are something else.
+    if not rows and any(b"\n" in path.read_bytes() for path in paths):
         names = ", ".join(map(str, paths))
         raise CommandError(f"{names} holds no row of a batch; name the report of one.", USAGE_ERROR)
     messages = Messages(arguments.quiet)
