@@ -41,6 +41,7 @@ REASONS = {
     "before_after": (SELECT, SELECT, FIRST, FIRST, FIRST),
     "heat_map": (SELECT, SELECT, FIRST, OBJECT, OBJECT),
     "hide_colors": (SELECT, SELECT, "The selected meshes have no colors of Framelet", OBJECT, OBJECT),
+    "pick_face_set": ("Make a mesh object active", "Make a mesh object active", None, None, None),
     "preview": ("Make a mesh object active", "Make a mesh object active", None, OBJECT, OBJECT),
     "apply_preview": (PREVIEW_OFF,) * 5,
     "cancel": (NOT_RUNNING,) * 5,

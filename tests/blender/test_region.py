@@ -193,6 +193,7 @@ def test_other_options_reach_core(torus):
 
 
 def test_the_button_hands_over_the_region(torus):
+    from framelet.operators.properties.own_settings import shown_settings
     from framelet.operators.properties.setting_values import copy_settings
 
     settings = bpy.context.scene.framelet
@@ -205,7 +206,7 @@ def test_the_button_hands_over_the_region(torus):
     copied = Target()
     for name in REGION_NAMES:
         setattr(copied, name, None)
-    copy_settings(settings, copied)
+    copy_settings(shown_settings(bpy.context), copied)
     assert to_region_options(copied) == RegionOptions(
         limit="EDGES", max_edges=0.07, keep_volume=True, vertex_group="Part"
     )
