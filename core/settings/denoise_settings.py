@@ -248,7 +248,7 @@ PRESETS: Mapping[str, Preset] = {
     "FREE_FORM": Preset(
         "Scan (free-form)",
         "For scans and organic shapes: takes noise that is several edges wide for noise, too",
-        {"method": "AUTO", "noise": "WIDE", "strength": 2.0},
+        {"method": "AUTO", "noise": "WIDE", "strength": 1.5},
     ),
     "PRISMATIC": Preset(
         "CAD (prismatic)",
@@ -258,7 +258,7 @@ PRESETS: Mapping[str, Preset] = {
     "MARCHING_CUBES": Preset(
         "Marching Cubes / CT",
         "For surfaces made of voxels, as from CT: turns steps into smooth shapes and does not shrink them",
-        {"method": "AUTO", "noise": "WIDE", "strength": 2.0, "passes": 3},
+        {"method": "AUTO", "noise": "WIDE", "passes": 3},
     ),
     "SCULPT": Preset(
         "Sculpt (keep detail)",
