@@ -51,6 +51,8 @@ class Features:
         Distance, ratio of areas, bends and offsets across each edge; 0 for the pair without faces.
     quantiles : ndarray, shape (I, N_GLOBAL), float32
         Quantiles of energies over each island, as they are at Strength 1; small islands are one.
+    n_measured : ndarray, shape (I,), intp
+        Of how many faces.
     context : ndarray, shape (I, N_CONTEXT), float32
         What is known of each island as a whole: its quantiles, and means of what the pass before took away.
     island : ndarray, shape (F,), intp, or None
@@ -65,6 +67,7 @@ class Features:
 
     pairs: NDArray[np.float32]
     quantiles: NDArray[np.float32]
+    n_measured: NDArray[np.intp]
     context: NDArray[np.float32]
     island: NDArray[np.intp] | None
     block: Callable[[slice, Polygons], NDArray[np.float32]]
@@ -197,6 +200,7 @@ def find_features(
         parts = [*faces_of_islands(island)]
     counted = parts if measured is None else [measured.of(part) for part in parts]
     quantiles = np.array([_quantiles(spread[own], is_flat[own]) for own in counted])
+    n_measured = np.array([len(is_flat[own]) for own in counted], np.intp)
     stronger = quantiles + np.float32(log_strength) * _BY_STRENGTH
     row = None
     if island is not None:
@@ -248,7 +252,7 @@ def find_features(
         faces[:, -N_TAKEN:] = before[block]
         return faces
 
-    return Features(pairs, quantiles, context, row, collect, graph)
+    return Features(pairs, quantiles, n_measured, context, row, collect, graph)
 
 
 _BY_STRENGTH = np.array([2] * 6 + [0] * 3 + [1] * 6 + [0], np.float32)

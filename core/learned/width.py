@@ -21,12 +21,23 @@ CLIP = np.float32(3)
 """Standardized quantiles are cut off here: squares grow fast where nothing was seen."""
 
 
-def find_wide(quantiles: NDArray[np.float32]) -> NDArray[np.bool_]:
-    """Return which rows of quantiles, shape (I, N_GLOBAL), are of wide noise, shape (I,); see `Features`."""
+LEAST_FACES = 2000
+"""Faces of an island below which its noise counts as fine: quantiles of few faces hang on single ones."""
+
+UNSURE = np.float32(0.02)
+"""Gain up to which both nets have a share, so that rounding decides nothing."""
+
+
+def wide_share(quantiles: NDArray[np.float32], n_faces: NDArray[np.intp]) -> NDArray[np.float32]:
+    """Return the share of the net for wide noise, shape (I,), from 0 to 1.
+
+    `quantiles`, shape (I, N_GLOBAL), are those of `Features`, and `n_faces`, shape (I,), of how many faces.
+    """
     arrays = _load()
     gain = terms(quantiles, arrays["mean"], arrays["scale"]) @ arrays["weights"]
-    result: NDArray[np.bool_] = gain > 0
-    return result
+    share: NDArray[np.float32] = np.clip(np.float32(0.5) + gain / (2 * UNSURE), 0, 1)
+    share[n_faces < LEAST_FACES] = 0
+    return share
 
 
 def terms(

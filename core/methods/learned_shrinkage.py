@@ -21,7 +21,7 @@ from ..learned.net import N_LAYERS, load_net
 from ..learned.noise_field import find_belief
 from ..learned.stillness import clean_places, flat_vertices, hardly_moved
 from ..learned.taken import Taken
-from ..learned.width import find_wide
+from ..learned.width import wide_share
 from .problem import Problem, Solution
 
 WEAKEST = 0.25
@@ -81,13 +81,13 @@ def shrink_normals(problem: Problem) -> Solution:
 
 
 class _Run:
-    """Passes over a mesh, which of its vertices are free, and which of its faces have wide noise."""
+    """Passes over a mesh, which of its vertices are free, and how wide the noise is at its faces."""
 
     def __init__(self, points: NDArray[np.float32], engine: FaceEngine, problem: Problem) -> None:
         self.points, self.engine, self._problem = points, engine, problem
         self.n_ticks, self._n_done = TICKS, 0
         self._log_strength = math.log(max(problem.settings.strength, WEAKEST))
-        self._is_wide = np.array([problem.settings.noise == "WIDE"])
+        self._wide = np.array([problem.settings.noise == "WIDE"], np.float32)
         self._is_movable = np.ones(points.shape[1], bool)
         self._is_movable[problem.constraints.pinned] = False
         self.is_free = self._is_movable.copy()
@@ -133,18 +133,22 @@ class _Run:
         if is_first:
             self.is_free &= ~flat_vertices(points, scales, self.engine.graph, self.measured)
             if self._problem.settings.noise == "AUTO":
-                by_island = find_wide(features.quantiles)
-                self._is_wide = by_island if features.island is None else by_island[features.island]
+                share = wide_share(features.quantiles, features.n_measured)
+                self._wide = share if features.island is None else share[features.island]
         self._tick()
         fine = None
-        if self._is_wide.any() and not self._is_wide.all():
-            # Islands of both kinds are rare: both nets see all of them.
+        if 0 < self._wide.mean() < 1:
             own = scales._replace(normals=scales.normals.copy())
             fine = load_net("fine").normals(own, features, self.engine.graph)
-        begun = load_net("wide" if self._is_wide.any() else "fine").begun(scales, features, self.engine.graph)
+            fine *= 1 - self._wide
+        begun = load_net("wide" if self._wide.any() else "fine").begun(scales, features, self.engine.graph)
         del scales, features  # a third of the memory
         normals = begun.normals(self._tick)
-        return normals if fine is None else np.where(self._is_wide, normals, fine)
+        if fine is not None:
+            normals *= self._wide
+            normals += fine
+            normals /= np.sqrt((normals * normals).sum(axis=0)) + np.float32(1e-6)
+        return normals
 
     def _fitted(self, normals: NDArray[np.float32]) -> NDArray[np.float32]:
         """Return the vertices, shape (3, N), whose faces have these normals."""

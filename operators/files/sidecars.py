@@ -23,7 +23,7 @@ _MAP_WORDS = ("map_", "bump", "disp", "decal", "norm", "refl")
 
 
 def sidecars_of(file: MeshFile, source: Path) -> list[str]:
-    """Return the relative paths of all files that a file refers to, be they there or not.
+    r"""Return the relative paths of all files that a file refers to, be they there or not.
 
     Examples
     --------
@@ -133,7 +133,11 @@ def _can_be(place: Path, content: bytes, source: Path, uri: str) -> bool:
             return place.parent.is_dir()
         old = source.parent / unquote(uri)
         is_read = old.exists() and place.samefile(old)
-        return not is_read and place.stat().st_size == len(content) and place.read_bytes() == content
+        if is_read or place.stat().st_size != len(content) or place.read_bytes() != content:
+            return False
+        # One that another file refers to is not shared: that file would change with this one.
+        word = f'"{quote(place.name)}"'.encode()
+        return not any(word in path.read_bytes() for path in place.parent.glob("*.gltf"))
     except OSError:
         return False
 

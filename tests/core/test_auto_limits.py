@@ -196,4 +196,4 @@ def test_a_shake_that_is_as_good_as_none_changes_nothing(seed, shared_meshes):
     moved = denoise(mesh, settings).vertices.astype(float) - mesh.vertices
     change = denoise(other, settings).vertices.astype(float) - other.vertices - moved
     assert np.abs(change).max() < 0.02 * edge
-    assert np.sqrt((moved**2).sum(axis=1).mean()) < 0.005 * edge
+    assert np.sqrt((moved**2).sum(axis=1).mean()) < 0.01 * edge

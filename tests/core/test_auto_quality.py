@@ -232,7 +232,7 @@ def test_noise_at_some_vertices_only_is_taken_away(share, rng):
         ("fandisk", None, 1.65),
         ("fandisk", "fandisk_noisy03", 2.0),
         ("fandisk", "fandisk_noisy07", 4.4),
-        ("bunny_closed35k", None, 5.5),
+        ("bunny_closed35k", None, 5.6),
     ],
 )
 def test_figures_of_files(shared_meshes, file, noise, angle):

@@ -15,7 +15,7 @@ from .profile import examples
 ROUNDING = 1e-6
 """Mean edge lengths by which results may differ in double precision."""
 
-SINGLE = 0.02
+SINGLE = 0.1
 """The same for learned shrinkage, whose kernels work in single precision: on strips and small islands
 averages shrink the surface to nearly nothing, which amplifies rounding; elsewhere it is far less."""
 

@@ -2,11 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Which net is taken: by what is measured over each island, and by the user's word."""
 
+from itertools import pairwise
+
 import numpy as np
 from framelet.core import DenoiseSettings, denoise, vertex_normals
 from framelet.core.learned import width as width_module
 from framelet.core.learned.features import N_GLOBAL
-from framelet.core.learned.width import find_wide
+from framelet.core.learned.width import wide_share
+from framelet.core.methods import learned_shrinkage
 from meshes import noisy, triangle_torus, union
 
 AUTO = DenoiseSettings(method="AUTO", threads=1)
@@ -33,31 +36,47 @@ def test_the_choice_is_a_regression(rng):
     for row in rows:
         z = np.clip((row - arrays["mean"]) / arrays["scale"], -3, 3)
         products = [z[i] * z[j] for i in range(len(z)) for j in range(i, len(z))]
-        expected.append(float(np.dot([1, *z, *products], arrays["weights"])) > 0)
-    found = find_wide(rows.astype(np.float32))
-    assert found.dtype == bool and found.tolist() == expected
-    assert 0 < found.sum() < len(found)
+        gain = float(np.dot([1, *z, *products], arrays["weights"]))
+        expected.append(min(max(0.5 + gain / 0.04, 0), 1))
+    found = wide_share(rows.astype(np.float32), np.full(200, 2000))
+    assert found.dtype == np.float32 and np.abs(found - expected).max() < 0.01
+    assert 0 < found.mean() < 1
+    assert not wide_share(rows.astype(np.float32), np.full(200, 1999)).any()
+
+
+def solved(mesh, noise="AUTO"):
+    return denoise(mesh, AUTO.with_changes(noise=noise, passes=1)).vertices
 
 
 def test_white_noise_is_fine_and_smooth_noise_is_wide(rng):
-    mesh = triangle_torus(40, 60)
-    for noise, width in ((noisy(mesh, rng, 0.1), "FINE"), (smooth_noise(mesh, rng, 3), "WIDE")):
-        found = denoise(noise, AUTO).vertices
-        assert np.array_equal(found, denoise(noise, AUTO.with_changes(noise="FINE")).vertices) == (
-            width == "FINE"
-        )
-        told = denoise(noise, AUTO.with_changes(noise="WIDE")).vertices
-        assert np.array_equal(found, told) == (width == "WIDE")
+    torus = triangle_torus(40, 60)
+    for mesh, width, other in (
+        (noisy(torus, rng, 0.5), "FINE", "WIDE"),
+        (smooth_noise(torus, rng, 2), "WIDE", "FINE"),
+    ):
+        found = solved(mesh)
+        assert np.array_equal(found, solved(mesh, width))
+        assert not np.array_equal(found, solved(mesh, other))
+
+
+def test_where_nothing_is_sure_both_nets_have_a_share(rng, monkeypatch):
+    mesh = noisy(triangle_torus(20, 20), rng, 0.1)
+    results = []
+    for gain in (-0.03, -0.005, 0.0, 0.005, 0.03):
+        found = np.clip(np.float32(0.5 + gain / 0.04), 0, 1)
+        monkeypatch.setattr(learned_shrinkage, "wide_share", lambda *_, own=found: np.array([own]))
+        results.append(solved(mesh))
+    fine, wide = solved(mesh, "FINE"), solved(mesh, "WIDE")
+    assert np.array_equal(results[0], fine) and np.array_equal(results[-1], wide)
+    steps = [np.abs(after - before).max() for before, after in pairwise(results)]
+    assert min(steps) > 0 and max(steps) < np.abs(wide - fine).max()
 
 
 def test_each_island_has_the_net_that_it_needs(rng):
-    one, other = noisy(triangle_torus(20, 40), rng, 0.05), smooth_noise(triangle_torus(20, 40), rng, 3)
-    both = union(one, other)
-    found = denoise(both, AUTO).vertices
-    alone = np.concatenate([denoise(mesh, AUTO).vertices for mesh in (one, other)])
-    assert np.abs(found - alone).max() < 1e-3
-    for width in ("FINE", "WIDE"):
-        same = denoise(both, AUTO.with_changes(noise=width)).vertices
-        n = one.n_vertices
-        assert np.abs(same[:n] - found[:n]).max() < 1e-3 if width == "FINE" else True
-        assert (np.abs(same[n:] - found[n:]).max() < 1e-3) == (width == "WIDE")
+    torus = triangle_torus(40, 60)
+    one, other = noisy(torus, rng, 0.5), smooth_noise(torus, rng, 2)
+    found = solved(union(one, other)).reshape(2, -1, 3)
+    for own, mesh, width in zip(found, (one, other), ("FINE", "WIDE"), strict=True):
+        alone = solved(mesh, width)
+        alone += (own - alone).mean(axis=0)  # `union` puts them apart
+        assert np.abs(own - alone).max() < 0.01
