@@ -77,6 +77,9 @@ def empty_scene(registered):
     import bpy
 
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    manager = bpy.context.window_manager  # which stays when a file is read
+    if hasattr(manager, "framelet_band_range"):
+        manager.property_unset("framelet_band_range")
 
 
 @pytest.fixture
