@@ -78,8 +78,9 @@ def empty_scene(registered):
 
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     manager = bpy.context.window_manager  # which stays when a file is read
-    if hasattr(manager, "framelet_band_range"):
-        manager.property_unset("framelet_band_range")
+    for name in dir(manager):
+        if name.startswith("framelet_"):
+            manager.property_unset(name)
 
 
 @pytest.fixture
