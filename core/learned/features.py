@@ -216,7 +216,7 @@ def find_features(
             before[block, 1] = 2 * taken.correlation.take(polygons.corners).mean(axis=0)
 
         graph.for_faces(recall)
-    means = np.array([before[own].mean(axis=0) for own in counted])
+    means = np.array([before[own].sum(axis=0) / max(len(is_flat[own]), 1) for own in counted], np.float32)
     context = np.concatenate((stronger, means), axis=1)
     at_faces = rings.inward(at_vertex.outward(at_vertex.mean(spread)))
     at_faces = rings.outward(rings.averaged(at_faces, SPREAD_AVERAGES))
