@@ -45,7 +45,8 @@ def compare(
             fine, wide = (both_passes(nets[width], draw, (1, 1))[1] for width in ("fine", "wide"))
         if np.isfinite(fine) and np.isfinite(wide):
             # Islands are rare in training; the one with the most faces stands for the mesh.
-            quantiles.append(np.median(draw.described()[1].quantiles, axis=0))
+            features = draw.described()[1]
+            quantiles.append(features.quantiles[features.n_measured.argmax()])
             gains.append(fine - wide)
     return np.array(quantiles, np.float32), np.array(gains, np.float32)
 

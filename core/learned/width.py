@@ -20,7 +20,6 @@ ARRAYS = Path(__file__).with_name("width.npz")
 CLIP = np.float32(3)
 """Standardized quantiles are cut off here: squares grow fast where nothing was seen."""
 
-
 LEAST_FACES = 2000
 """Faces of an island below which its noise counts as fine: quantiles of few faces hang on single ones."""
 

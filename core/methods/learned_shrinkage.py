@@ -12,6 +12,7 @@ where they were. What is clean stays put (`learned.stillness`).
 from __future__ import annotations
 
 import math
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -85,7 +86,7 @@ class _Run:
 
     def __init__(self, points: NDArray[np.float32], engine: FaceEngine, problem: Problem) -> None:
         self.points, self.engine, self._problem = points, engine, problem
-        self.n_ticks, self._n_done = TICKS, 0
+        self.n_ticks, self._n_done = TICKS, 0.0
         self._log_strength = math.log(max(problem.settings.strength, WEAKEST))
         self._wide = np.array([problem.settings.noise == "WIDE"], np.float32)
         self._is_movable = np.ones(points.shape[1], bool)
@@ -136,14 +137,15 @@ class _Run:
                 share = wide_share(features.quantiles, features.n_measured)
                 self._wide = share if features.island is None else share[features.island]
         self._tick()
-        fine = None
+        fine, tick = None, self._tick
         if 0 < self._wide.mean() < 1:
+            tick = partial(self._tick, 0.5)  # for each of the two nets
             own = scales._replace(normals=scales.normals.copy())
-            fine = load_net("fine").normals(own, features, self.engine.graph)
+            fine = load_net("fine").normals(own, features, self.engine.graph, tick)
             fine *= 1 - self._wide
         begun = load_net("wide" if self._wide.any() else "fine").begun(scales, features, self.engine.graph)
         del scales, features  # a third of the memory
-        normals = begun.normals(self._tick)
+        normals = begun.normals(tick)
         if fine is not None:
             normals *= self._wide
             normals += fine
@@ -160,9 +162,9 @@ class _Run:
         self._tick()
         return moved
 
-    def _tick(self) -> None:
-        """Tell that a step is done."""
-        self._n_done += 1
+    def _tick(self, n_steps: float = 1.0) -> None:
+        """Tell that a step, or a part of one, is done."""
+        self._n_done += n_steps
         callback = self._problem.callback
         if callback is not None and callback(min(self._n_done / self.n_ticks, 1.0), 0.0):
             raise _Stopped

@@ -24,13 +24,10 @@ class Picture(NamedTuple):
 
 
 def draft_of(settings: DenoiseSettings) -> DenoiseSettings | None:
-    """Return settings that give a first picture in one pass; None where the result takes no longer.
-
-    How wide the noise is takes a pass to find out, so that a draft takes it for fine.
-    """
-    if settings.method != "AUTO" or (settings.passes == 1 and settings.noise != "AUTO"):
+    """Return settings that give a first picture in one pass; None where the result takes no longer."""
+    if settings.method != "AUTO" or settings.passes == 1:
         return None
-    return settings.with_changes(passes=1, noise="FINE" if settings.noise == "AUTO" else settings.noise)
+    return settings.with_changes(passes=1)
 
 
 def compute_pictures(

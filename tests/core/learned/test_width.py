@@ -8,6 +8,7 @@ import numpy as np
 from framelet.core import DenoiseSettings, denoise, vertex_normals
 from framelet.core.learned import width as width_module
 from framelet.core.learned.features import N_GLOBAL
+from framelet.core.learned.net import N_LAYERS
 from framelet.core.learned.width import wide_share
 from framelet.core.methods import learned_shrinkage
 from meshes import noisy, triangle_torus, union
@@ -70,6 +71,17 @@ def test_where_nothing_is_sure_both_nets_have_a_share(rng, monkeypatch):
     assert np.array_equal(results[0], fine) and np.array_equal(results[-1], wide)
     steps = [np.abs(after - before).max() for before, after in pairwise(results)]
     assert min(steps) > 0 and max(steps) < np.abs(wide - fine).max()
+
+
+def test_progress_and_cancel_see_both_nets(rng, monkeypatch):
+    """As often as one net would, each at half of the step, and up to 1."""
+    monkeypatch.setattr(learned_shrinkage, "wide_share", lambda *_: np.array([0.5], np.float32))
+    mesh, told = noisy(triangle_torus(20, 20), rng, 0.1), []
+    denoise(mesh, AUTO, callback=lambda done, _change: told.append(done) and False)
+    assert told == sorted(told) and told[-1] == 1 and max(np.diff(told)) <= 1 / learned_shrinkage.TICKS
+    assert len(told) >= 2 * (2 * N_LAYERS + 2)
+    stopped = denoise(mesh, AUTO, callback=lambda done, _change: done > told[2]).report
+    assert stopped.is_stopped
 
 
 def test_each_island_has_the_net_that_it_needs(rng):
