@@ -12,8 +12,8 @@ from numpy.typing import DTypeLike, NDArray
 
 from .blocks import Stopped
 from .limits.finish import finish
-from .limits.placed import resolve
 from .limits.region import Region
+from .limits.resolved_region import resolve
 from .memory import check_memory
 from .mesh.connectivity import Connectivity
 from .mesh.surface_mesh import SurfaceMesh

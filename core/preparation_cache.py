@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import DTypeLike
 
 from .errors import FrameletError
-from .limits.placed import ResolvedRegion
+from .limits.resolved_region import ResolvedRegion
 from .mesh.connectivity import Connectivity
 from .mesh.surface_mesh import SurfaceMesh
 from .prepared import Prepared, prepare, prepare_again

@@ -17,9 +17,9 @@ from numpy.typing import DTypeLike, NDArray
 from .blocks import BLOCK_SIZE, Blocks
 from .learned.engine import FaceEngine
 from .limits.constraints import Constraints, Corners, find_constraints, find_corners
-from .limits.face_watch import FaceState
+from .limits.face_flips import FaceState
 from .limits.lines import find_lines, smoothing_of
-from .limits.placed import ResolvedRegion
+from .limits.resolved_region import ResolvedRegion
 from .limits.straight_borders import find_curves, straightened
 from .mesh.checks import check_positions, check_surface
 from .mesh.connectivity import Connectivity, connect
@@ -109,7 +109,7 @@ class Prepared:
             surface = without_spikes(surface, constraints.pinned)
             motion = (surface.vertices.astype(np.float64) - self.ordered.vertices).T / self.edge
             given = given + motion.astype(given.dtype)
-            engine = None if engine is None else engine.placed(surface, self.connectivity)
+            engine = None if engine is None else engine.for_positions(surface, self.connectivity)
         if resolved.straighten_borders:
             given, constraints = self._with_straight_borders(given, constraints)
         problem = Problem(
@@ -260,7 +260,7 @@ def prepare_again(
             engine = None if previous is None else previous.engine
             if engine is None:
                 engine = FaceEngine(ordered, connectivity, blocks)
-            engine = engine.placed(ordered, connectivity)
+            engine = engine.for_positions(ordered, connectivity)
         if settings.method == "POSITIONS":
             # Chosen on the normalized surface in full precision, so that rounding decides nothing.
             transform = make_transform(

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .limits.finish import Finished
-from .limits.placed import ResolvedRegion
+from .limits.resolved_region import ResolvedRegion
 from .mesh.surface_mesh import SurfaceMesh
 from .methods.problem import Problem, Solution
 from .noise import NoiseEstimate
@@ -50,7 +50,7 @@ class DenoiseReport:
     """The noise, if it was measured: with the method AUTO a `NoiseBelief`, what was taken for noise."""
     folded_faces: int = 0
     folded_faces_before: int = 0
-    """Faces that look against the faces around them, see `FaceWatch`, in the result and in the input."""
+    """Faces that look against the faces around them, see `FaceFlips`, in the result and in the input."""
     degenerate_faces: int = 0
     degenerate_faces_before: int = 0
     """Faces next to without area, in the result and in the input."""

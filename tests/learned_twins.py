@@ -139,7 +139,7 @@ def face_pairs_of(mesh, pairs):
     ]
 
 
-def slow_features(mesh, means, scales, taken=None, log_strength=0.0, least_island=500):
+def slow_features(mesh, means, scales, residual=None, log_strength=0.0, least_island=500):
     """Return the inputs of the net.
 
     Those of the faces of the graph, of pairs in the order of `pairs_of`, and of the island of each face.
@@ -180,10 +180,10 @@ def slow_features(mesh, means, scales, taken=None, log_strength=0.0, least_islan
     for number in np.unique(part):
         own = part == number
         result[own, 21:37] = quantiles(spread[own], is_flat[own], log_strength)
-    if taken is not None:
+    if residual is not None:
         for f, face in enumerate(faces):
-            result[f, 37] = energy(np.mean([taken[0][v] for v in face]) / length[f]) / 4 + 1
-            result[f, 38] = 2 * np.mean([taken[1][v] for v in face])
+            result[f, 37] = energy(np.mean([residual[0][v] for v in face]) / length[f]) / 4 + 1
+            result[f, 38] = 2 * np.mean([residual[1][v] for v in face])
     context = result[:, 21:].copy()
     for number in np.unique(part):
         context[part == number, -2:] = result[part == number, -2:].mean(axis=0)
@@ -200,7 +200,7 @@ def slow_offsets(mesh, after):
     return ((mesh.vertices - after) * normals).sum(axis=1)
 
 
-def slow_taken(means, offsets):
+def slow_residual(means, offsets):
     """Return the strength of offsets around vertices and their correlation with the ring, each (N,)."""
     wide = averaging(means, SPREAD)
     square = wide @ offsets**2

@@ -24,7 +24,7 @@ from core.learned.scales import Scales
 from . import noise
 from .net import Net
 from .sample_mesh import SampleMesh
-from .shapes.catalog import family_of
+from .shapes.catalog import family_of, is_coarse
 
 LARGEST_RATE = 0.006
 CHECKPOINT_SECONDS = 120
@@ -33,9 +33,10 @@ LOSS_FLOOR = 0.004
 AVERAGE = 0.998
 """Decay of the running mean of the weights, which is what is exported; less at the start."""
 
-RELIEF = 0.05
-"""Share of the shapes with relief that keep all of it. It is finer than that of real meshes, which are
-sampled until nothing is finer than a few edges; with all of it wide noise is taken for relief."""
+RELIEF = {"fine": 0.5, "wide": 0.05}
+"""Share of the shapes with relief that keep all of it. It is finer than that of most real meshes, which are
+sampled until nothing is finer than a few edges; with all of it wide noise is taken for relief. Coarse meshes
+keep theirs."""
 
 SCANS = 2
 """How often range images are drawn for once that others are: what scanners make is what has to be right."""
@@ -60,7 +61,7 @@ class Draw:
 
     def __init__(self, mesh: SampleMesh, rng: np.random.Generator, width: str) -> None:
         positions, self.kind = noise.draw(mesh, rng, width)
-        self.engine = mesh.engine.placed(mesh.surface.with_vertices(positions), mesh.connectivity)
+        self.engine = mesh.engine.for_positions(mesh.surface.with_vertices(positions), mesh.connectivity)
         self.points = np.ascontiguousarray(positions.T, np.float32)
         wanted = mesh.normals.copy()
         if rng.random() < INSIDE_OUT:
@@ -78,7 +79,7 @@ class Draw:
         if normals is None:
             return self.engine.describe(self.points)
         points = self.engine.fit.fit(self.points, normals)
-        return self.engine.describe(points, self.engine.taken(self.points, points))
+        return self.engine.describe(points, self.engine.residual(self.points, points))
 
     def loss(self, normals: torch.Tensor) -> torch.Tensor:
         """Return the mean over clusters of log(mean |n - n*| + floor)."""
@@ -126,10 +127,11 @@ def validate(net: Net, draws: Sequence[Draw]) -> tuple[float, str]:
     return float(np.mean([value for values in by_kind.values() for value in values])), text
 
 
-def load(path: Path, rng: np.random.Generator) -> SampleMesh:
-    """Read a mesh; most of those with relief are made smooth first."""
-    mesh = SampleMesh.load(path)
-    if family_of(int(path.stem)) in ("organic", "islands", "terrain") and rng.random() > RELIEF:
+def load(path: Path, rng: np.random.Generator, relief: float) -> SampleMesh:
+    """Read a mesh; those with relief are made smooth first, but for a share that keeps all of it."""
+    mesh, index = SampleMesh.load(path), int(path.stem)
+    has_relief = family_of(index) in ("organic", "islands", "terrain") and not is_coarse(index)
+    if has_relief and rng.random() > relief:
         return mesh.smoothed(round(noise.log_uniform(rng, 3, 24)))
     return mesh
 
@@ -192,7 +194,7 @@ def train(
     held_out = [path for path in paths if int(path.stem) % 20 == 0]
     meshes: dict[Path, SampleMesh] = {}
     trial = np.random.default_rng(1000)
-    held = [load(path, trial) for path in held_out[:14]]
+    held = [load(path, trial, RELIEF[width]) for path in held_out[:14]]
     net, average = Net(REPEATS[width]), Net(REPEATS[width])
     validation = [Draw(held[number % len(held)], trial, width) for number in range(42)]
     optimizer = torch.optim.Adam(net.parameters(), lr=LARGEST_RATE, betas=(0.9, 0.98))
@@ -223,7 +225,7 @@ def train(
             paths += [path for path in paths if family_of(int(path.stem)) == "scanned"] * (SCANS - 1)
         path = paths[rng.integers(len(paths))]
         if path not in meshes:
-            meshes[path] = load(path, rng)
+            meshes[path] = load(path, rng, RELIEF[width])
         mesh = meshes[path]
         if mesh.engine.graph.n_faces > MOST_FACES:
             continue

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from core.learned.width import terms
 
 from .net import Net
-from .train import MOST_FACES, Draw, both_passes, load
+from .train import MOST_FACES, RELIEF, Draw, both_passes, load
 
 RIDGE = 20.0
 """Penalty on the squares of the weights: draws are few beside terms."""
@@ -37,10 +37,11 @@ def compare(
     paths = sorted(shapes.glob("*.npz"))
     quantiles, gains = [], []
     while len(gains) < n_draws:
-        mesh = load(paths[rng.integers(len(paths))], rng)
+        width = ("fine", "wide")[len(gains) % 2]
+        mesh = load(paths[rng.integers(len(paths))], rng, RELIEF[width])
         if mesh.engine.graph.n_faces > MOST_FACES:
             continue
-        draw = Draw(mesh, rng, ("fine", "wide")[len(gains) % 2])
+        draw = Draw(mesh, rng, width)
         with torch.no_grad():
             fine, wide = (both_passes(nets[width], draw, (1, 1))[1] for width in ("fine", "wide"))
         if np.isfinite(fine) and np.isfinite(wide):

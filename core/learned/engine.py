@@ -19,11 +19,11 @@ from ..mesh.ragged import Ragged
 from ..mesh.surface_mesh import SurfaceMesh
 from .face_graph import FACES_AT_ONCE, FaceGraph, Polygons
 from .features import Features, find_features
-from .islands import find_islands
+from .islands import LEAST_ISLAND, find_islands
 from .measured import Measured, find_measured
+from .residual import Residual, find_residual
 from .scales import Scales, find_scales
 from .screened_fit import ScreenedFit
-from .taken import Taken, find_taken
 
 LONG = 8.0
 """Length in mean lengths of the edges at its ends from which an edge is long."""
@@ -58,6 +58,8 @@ class FaceEngine:
         Threads to work on.
     faces_at_once : int, optional
         Faces or pairs in a block.
+    least_island : int, optional
+        Faces from which a connected part is an island of its own.
     """
 
     def __init__(
@@ -66,6 +68,7 @@ class FaceEngine:
         connectivity: Connectivity,
         blocks: Blocks,
         faces_at_once: int = FACES_AT_ONCE,
+        least_island: int = LEAST_ISLAND,
     ) -> None:
         self.graph = FaceGraph(surface, connectivity, blocks, faces_at_once)
         self._blocks, self._is_long = blocks, long_edges(surface, connectivity)
@@ -78,9 +81,9 @@ class FaceEngine:
             at_vertex = Ragged(at_vertex.offset, items).kept(items >= 0)
         self.at_vertex = Means(at_vertex, blocks, is_square=False)
         self.fit = ScreenedFit(self.graph, self.at_vertex, self.rings)
-        self.island = find_islands(self.graph)
+        self.island = find_islands(self.graph, least_island)
 
-    def placed(self, surface: SurfaceMesh, connectivity: Connectivity) -> FaceEngine:
+    def for_positions(self, surface: SurfaceMesh, connectivity: Connectivity) -> FaceEngine:
         """Return the engine for other positions of the same mesh: this one, unless other edges are long."""
         is_long = long_edges(surface, connectivity)
         if np.array_equal(self._is_long, is_long):
@@ -94,26 +97,26 @@ class FaceEngine:
     def describe(
         self,
         points: NDArray[np.float32],
-        taken: Taken | None = None,
+        residual: Residual | None = None,
         log_strength: float = 0.0,
         measured: Measured | None = None,
     ) -> tuple[Scales, Features]:
         """Return scales and features of positions, shape (3, N), float32; see `find_features`."""
         scales = find_scales(points, self.graph, self.rings)
         return scales, find_features(
-            scales, self.graph, self.rings, self.at_vertex, self.island, taken, log_strength, measured
+            scales, self.graph, self.rings, self.at_vertex, self.island, residual, log_strength, measured
         )
 
     def measured(self, movable: NDArray[np.bool_]) -> Measured | None:
         """Return where noise is measured if these vertices may move, shape (N,); None for everywhere."""
         return find_measured(movable, self.graph, self.island)
 
-    def taken(
+    def residual(
         self, before: NDArray[np.float32], after: NDArray[np.float32], measured: Measured | None = None
-    ) -> Taken:
+    ) -> Residual:
         """Return what was taken away between two positions, shape (3, N)."""
         movable = None if measured is None else measured.movable
-        return find_taken(self.offsets(before, after), self.rings, movable)
+        return find_residual(self.offsets(before, after), self.rings, movable)
 
     def vertex_normals(self, points: NDArray[np.float32]) -> NDArray[np.float32]:
         """Return unit vertex normals, shape (3, N): area-weighted means of the faces around a vertex."""

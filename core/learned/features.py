@@ -19,8 +19,8 @@ from ..averages.ring_means import RingMeans
 from .face_graph import FaceGraph, Polygons
 from .islands import faces_of_islands
 from .measured import Measured
+from .residual import Residual
 from .scales import N_SCALES, Scales
-from .taken import Taken
 
 FLOOR = np.float32(1e-4)
 """Least energy: jumps of normals and heights below a hundredth are as good as none."""
@@ -35,9 +35,9 @@ PAIRS_OF_SCALES = ((0, 1), (1, 2), (2, 3), (0, 2), (1, 3), (0, 3))
 
 N_SPREAD = 8
 N_GLOBAL = 16
-N_TAKEN = 2
-N_FACE = 3 + 3 + len(PAIRS_OF_SCALES) + 1 + N_SPREAD + N_GLOBAL + N_TAKEN
-N_CONTEXT = N_GLOBAL + N_TAKEN
+N_RESIDUAL = 2
+N_FACE = 3 + 3 + len(PAIRS_OF_SCALES) + 1 + N_SPREAD + N_GLOBAL + N_RESIDUAL
+N_CONTEXT = N_GLOBAL + N_RESIDUAL
 N_EDGE = 7
 
 
@@ -56,7 +56,7 @@ class Features:
     context : ndarray, shape (I, N_CONTEXT), float32
         What is known of each island as a whole: its quantiles, and means of what the pass before took away.
     island : ndarray, shape (F,), intp, or None
-        The island of each face, by its row; None if there is one.
+        The island of each face; None if there is one.
     block : callable
         `block(faces, polygons)` returns the inputs of some faces, shape (n, N_FACE), float32: heights and
         energies at each face, the same spread over its neighborhood, quantiles over its island, and what the
@@ -97,8 +97,8 @@ def find_features(
     graph: FaceGraph,
     rings: RingMeans,
     at_vertex: Means,
-    island: NDArray[np.int32] | None,
-    taken: Taken | None = None,
+    island: NDArray[np.intp] | None,
+    residual: Residual | None = None,
     log_strength: float = 0.0,
     measured: Measured | None = None,
 ) -> Features:
@@ -114,9 +114,9 @@ def find_features(
         Means over one-rings.
     at_vertex : Means
         Faces of the graph at each vertex.
-    island : ndarray, shape (F,), int32, or None
-        Number of the connected part that each face belongs to; None if there is one.
-    taken : Taken, optional
+    island : ndarray, shape (F,), intp, or None
+        The island of each face, see `find_islands`; None if there is one.
+    residual : Residual, optional
         What the pass before took away.
     log_strength : float
         Logarithm of Strength: added to the logarithms of fine jumps, and half of it to those of heights.
@@ -199,21 +199,16 @@ def find_features(
     if island is not None:
         parts = [*faces_of_islands(island)]
     counted = parts if measured is None else [measured.of(part) for part in parts]
-    quantiles = np.array([_quantiles(spread[own], is_flat[own]) for own in counted])
+    quantiles = np.array([quantiles_of(spread[own], is_flat[own]) for own in counted])
     n_measured = np.array([len(is_flat[own]) for own in counted], np.intp)
     stronger = quantiles + np.float32(log_strength) * _BY_STRENGTH
-    row = None
-    if island is not None:
-        row = np.empty(graph.n_faces, np.intp)
-        for number, part in enumerate(parts):
-            row[part] = number
-    before = np.zeros((graph.n_faces, N_TAKEN), np.float32)
-    if taken is not None:
+    before = np.zeros((graph.n_faces, N_RESIDUAL), np.float32)
+    if residual is not None:
 
         def recall(block: slice, polygons: Polygons) -> None:
-            strength = taken.strength.take(polygons.corners).mean(axis=0) / scales.length[block]
+            strength = residual.strength.take(polygons.corners).mean(axis=0) / scales.length[block]
             before[block, 0] = energy(strength) / 4 + 1  # 0, as in a first pass, for a usual strength
-            before[block, 1] = 2 * taken.correlation.take(polygons.corners).mean(axis=0)
+            before[block, 1] = 2 * residual.correlation.take(polygons.corners).mean(axis=0)
 
         graph.for_faces(recall)
     means = np.array([before[own].sum(axis=0) / max(len(is_flat[own]), 1) for own in counted], np.float32)
@@ -248,26 +243,33 @@ def find_features(
             total[:, :2] += np.float32(2 * log_strength)
             total[:, n_bands : 2 * n_bands] += np.float32(log_strength)
         faces[:, column + 1 : column + 1 + N_SPREAD] = total
-        faces[:, column + 1 + N_SPREAD : -N_TAKEN] = stronger if row is None else stronger[row[block]]
-        faces[:, -N_TAKEN:] = before[block]
+        faces[:, column + 1 + N_SPREAD : -N_RESIDUAL] = (
+            stronger if island is None else stronger[island[block]]
+        )
+        faces[:, -N_RESIDUAL:] = before[block]
         return faces
 
-    return Features(pairs, quantiles, n_measured, context, row, collect, graph)
+    return Features(pairs, quantiles, n_measured, context, island, collect, graph)
 
 
 _BY_STRENGTH = np.array([2] * 6 + [0] * 3 + [1] * 6 + [0], np.float32)
 """By how much quantiles grow with the logarithm of the noise: fine jumps, heights, but no wide jumps."""
 
 
-def _quantiles(energies: NDArray[np.float32], is_flat: NDArray[np.bool_]) -> NDArray[np.float32]:
-    """Return quantiles of energies of faces, shape (F, 8), as N_GLOBAL numbers; flat faces do not count."""
+def quantiles_of(
+    energies: NDArray[np.float32], is_flat: NDArray[np.bool_], n_samples: int = N_SAMPLES
+) -> NDArray[np.float32]:
+    """Return quantiles of energies of faces, shape (F, 8), as N_GLOBAL numbers; flat faces do not count.
+
+    They are those of at most `n_samples` faces.
+    """
     n_bands = N_SCALES - 1
     counted = np.flatnonzero(~is_flat)
     share = len(counted) / max(len(is_flat), 1)
     if not len(counted):
         counted = np.arange(min(len(is_flat), 1))
     # Evenly spread, so that the sample does not depend on chance.
-    chosen = counted[np.linspace(0, len(counted) - 1, min(len(counted), N_SAMPLES)).astype(np.intp)]
+    chosen = counted[np.linspace(0, len(counted) - 1, min(len(counted), n_samples)).astype(np.intp)]
     ordered = np.sort(energies[chosen][:, : 2 * n_bands], axis=0)
     last = len(ordered) - 1
     jumps = ordered[[round(q * last) for q in (0.25, 0.5, 0.75)], :n_bands]

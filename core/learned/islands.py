@@ -7,30 +7,26 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.linking import linked_groups
+from ..mesh.connected_components import connected_components
 from .face_graph import FaceGraph
 
 LEAST_ISLAND = 500
-"""Islands with fewer faces are taken together: alone they say too little."""
+"""Islands with fewer faces count as one: alone they say too little."""
 
 
-def find_islands(graph: FaceGraph) -> NDArray[np.int32] | None:
-    """Return the number of the connected part of each face, shape (F,), int32; None if there is only one.
+def find_islands(graph: FaceGraph, least_faces: int = LEAST_ISLAND) -> NDArray[np.intp] | None:
+    """Return the number of the island of each face, shape (F,), from 0 up; None if there is only one.
 
-    Parts are connected across edges and are numbered by their lowest faces.
+    Islands are connected across edges and numbered by their lowest faces; all those with fewer than
+    `least_faces` are one, the first.
     """
-    label = linked_groups(graph.n_faces, graph.first[:-1], graph.second[:-1])
-    roots, island = np.unique(label, return_inverse=True)
-    return island.reshape(-1).astype(np.int32) if len(roots) > 1 else None
+    root = connected_components(graph.n_faces, graph.first[:-1], graph.second[:-1])
+    is_small = np.bincount(root, minlength=graph.n_faces)[root] < least_faces
+    roots, island = np.unique(np.where(is_small, -1, root), return_inverse=True)
+    return island.reshape(-1) if len(roots) > 1 else None
 
 
-def faces_of_islands(island: NDArray[np.int32]) -> list[NDArray[np.intp]]:
-    """Return the faces of each island that is large enough, and those of all others together.
-
-    `island`, shape (F,), is the number of the island of each face.
-    """
-    sizes = np.bincount(island)
-    number = np.where(sizes >= LEAST_ISLAND, np.arange(len(sizes)), -1)[island]
-    by_island = np.argsort(number, kind="stable")
-    parts = np.split(by_island, np.flatnonzero(np.diff(number[by_island])) + 1)
-    return [part for part in parts if len(part)]
+def faces_of_islands(island: NDArray[np.intp]) -> list[NDArray[np.intp]]:
+    """Return the faces of each island; `island`, shape (F,), is the number of the island of each face."""
+    by_island = np.argsort(island, kind="stable")
+    return np.split(by_island, np.flatnonzero(np.diff(island[by_island])) + 1)

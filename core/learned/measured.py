@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .face_graph import FaceGraph
-from .islands import LEAST_ISLAND, faces_of_islands
+from .islands import LEAST_ISLAND
 
 
 class Measured(NamedTuple):
@@ -38,7 +38,7 @@ class Measured(NamedTuple):
 
 
 def find_measured(
-    movable: NDArray[np.bool_], graph: FaceGraph, island: NDArray[np.int32] | None
+    movable: NDArray[np.bool_], graph: FaceGraph, island: NDArray[np.intp] | None
 ) -> Measured | None:
     """Return where noise is measured; None for everywhere.
 
@@ -48,8 +48,8 @@ def find_measured(
         Vertices that may move.
     graph : FaceGraph
         Faces.
-    island : ndarray, shape (F,), int32, or None
-        Number of the connected part that each face belongs to; None if there is one.
+    island : ndarray, shape (F,), intp, or None
+        The island of each face, see `find_islands`; None if there is one.
 
     Returns
     -------
@@ -57,10 +57,7 @@ def find_measured(
         Where vertices of an island may move, at least as many of its faces as say something, `LEAST_ISLAND`,
         or all.
     """
-    number = np.zeros(graph.n_faces, np.int32)
-    if island is not None:
-        for k, part in enumerate(faces_of_islands(island)):
-            number[part] = k
+    number = np.zeros(graph.n_faces, np.intp) if island is None else island
     enough = np.minimum(np.bincount(number), LEAST_ISLAND)
     vertices, counted = movable.copy(), 0
     while True:

@@ -130,7 +130,7 @@ def find_field(
     if not engine.graph.n_faces:
         nothing = np.zeros(before.shape[1], np.float32)
         return NoiseField(nothing, nothing.copy())
-    strength, correlation = engine.taken(before, after, measured)
+    strength, correlation = engine.residual(before, after, measured)
     is_wide = correlation > 0.02
     width = np.zeros_like(strength)
     width[is_wide] = 0.5 / np.sqrt(-np.log(np.minimum(correlation[is_wide], np.float32(0.999))))

@@ -15,13 +15,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
-from ..mesh.carrier import WeldedMesh
+from ..mesh.welded_mesh import WeldedMesh
 from .constraints import Constraints
-from .face_watch import FaceState, FaceWatch
+from .face_flips import FaceFlips, FaceState
 from .folds import damp_until_valid
 from .motion import Motion
-from .placed import ResolvedRegion
 from .region import Region
+from .resolved_region import ResolvedRegion
 from .volume import volume_offset
 
 VOLUME_ROUNDS = 8
@@ -32,7 +32,7 @@ class Finished(NamedTuple):
     """Positions of the original surface, shape (N, 3), its faces as they are now, and damped vertices."""
 
     vertices: NDArray[np.floating]
-    watch: FaceWatch
+    watch: FaceFlips
     n_damped: int
 
 
@@ -60,10 +60,10 @@ def finish(
     constraints : Constraints
         Vertices that are pinned take no part in the offset for the volume.
     known : list of FaceState
-        The faces of the input, if they are known already, see `FaceWatch`; afterwards they are.
+        The faces of the input, if they are known already, see `FaceFlips`; afterwards they are.
     """
     motion = Motion(found, welded, region, resolved.movable, resolved.weights, constraints.pinned)
-    watch = FaceWatch(welded, blocks, known[0] if known else None)
+    watch = FaceFlips(welded, blocks, known[0] if known else None)
     known[:] = [watch.before]
     shares = np.ones(found.shape[1])
     vertices = _settled(motion.at(), shares, watch, region, blocks)
@@ -87,7 +87,7 @@ def finish(
 def _settled(
     displacement: NDArray[np.float64],
     shares: NDArray[np.float64],
-    watch: FaceWatch,
+    watch: FaceFlips,
     region: Region,
     blocks: Blocks,
 ) -> NDArray[np.floating]:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ..blocks import Blocks
 from ..mesh.corner_lists import corners_of, faces_at
-from .face_watch import FaceWatch
+from .face_flips import FaceFlips
 
 HALVINGS = 4
 """Times that the motion of a vertex is halved before it is taken back as a whole."""
@@ -27,13 +27,13 @@ LAST_ROUND = 96
 
 
 def damp_until_valid(
-    watch: FaceWatch, displacement: NDArray[np.float64], shares: NDArray[np.float64], blocks: Blocks
+    watch: FaceFlips, displacement: NDArray[np.float64], shares: NDArray[np.float64], blocks: Blocks
 ) -> NDArray[np.floating]:
     """Damp the motion where the surface folds, until no face is worse than in the input.
 
     Parameters
     ----------
-    watch : FaceWatch
+    watch : FaceFlips
         The faces, which are looked at; at the end they are seen as they are in the result.
     displacement : ndarray, shape (3, n)
         Of the vertices of the mesh that was worked on, in scene units.
@@ -80,7 +80,7 @@ def damp_until_valid(
     return vertices
 
 
-def _vertices_of(watch: FaceWatch, faces: NDArray[np.intp]) -> NDArray[np.bool_]:
+def _vertices_of(watch: FaceFlips, faces: NDArray[np.intp]) -> NDArray[np.bool_]:
     """Return a mask of the vertices of some faces, shape (n,)."""
     topology = watch.welded.topology
     result = np.zeros(topology.n_vertices, bool)
@@ -88,7 +88,7 @@ def _vertices_of(watch: FaceWatch, faces: NDArray[np.intp]) -> NDArray[np.bool_]
     return result
 
 
-def _any_moves(watch: FaceWatch, faces: NDArray[np.intp], shares: NDArray[np.float64]) -> NDArray[np.bool_]:
+def _any_moves(watch: FaceFlips, faces: NDArray[np.intp], shares: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Return which of some faces have a vertex with a share above 0."""
     topology = watch.welded.topology
     counts, corner = corners_of(topology, faces)

@@ -7,8 +7,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.carrier import WeldedMesh
 from ..mesh.geometry import vertex_normals
+from ..mesh.welded_mesh import WeldedMesh
 from .region import Region
 from .seam import fade_shift_in, faded_in, rings_beside
 

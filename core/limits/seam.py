@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.linking import linked_groups
+from ..mesh.connected_components import connected_components
 
 RINGS = 4
 """Rings over which a shift fades in beside vertices that stay."""
@@ -83,7 +83,7 @@ def fade_shift_in(
     # Rings are averaged along themselves only: across the seam the shift is not constant.
     along = edges[is_beside[edges].all(axis=1) & (ring[edges[:, 0]] == ring[edges[:, 1]])]
     along = rank[along[along[:, 0] != along[:, 1]]]
-    group = linked_groups(len(vertices), along[:, 0], along[:, 1])
+    group = connected_components(len(vertices), along[:, 0], along[:, 1])
     is_long = np.bincount(group, minlength=len(vertices))[group] >= INDEPENDENT
     if not is_long.any():
         return

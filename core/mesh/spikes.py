@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ..errors import RegionError
 from ..settings.outliers import SPIKE_LENGTH, SPIKE_VERTICES
-from .linking import linked_groups
+from .connected_components import connected_components
 from .surface_mesh import SurfaceMesh
 
 ROUNDS = 4
@@ -68,7 +68,7 @@ def find_spikes(
         np.concatenate((owner, everyone)), np.concatenate((own[second], own[first], own)), n_vertices
     )
     is_long = lengths > length * np.maximum(around[first], around[second])
-    label = linked_groups(n_vertices, first[~is_long], second[~is_long])
+    label = connected_components(n_vertices, first[~is_long], second[~is_long])
     size = np.bincount(label, minlength=n_vertices)[label]
     spiked = np.zeros(n_vertices, bool)
     for here, there in ((first, second), (second, first)):
@@ -115,7 +115,7 @@ def flattened(surface: SurfaceMesh, spikes: NDArray[np.bool_]) -> NDArray[np.flo
     points = surface.vertices - center
     # From the surroundings inwards: first those of the ring, so that the height itself is forgotten at once.
     known = ~spikes
-    label = linked_groups(surface.n_vertices, here[spikes[there]], there[spikes[there]])
+    label = connected_components(surface.n_vertices, here[spikes[there]], there[spikes[there]])
     largest = int(np.bincount(label[rows]).max(initial=1))
     for _ in range(ROUNDS * max(largest, SPIKE_VERTICES)):
         counts = known[there].astype(np.float64)
@@ -173,7 +173,7 @@ def small_islands(surface: SurfaceMesh, most: int) -> NDArray[np.bool_]:
     >>> np.flatnonzero(small_islands(two, 3)).tolist()
     [4, 5, 6]
     """
-    label = linked_groups(surface.n_vertices, *surface.edges.T)
+    label = connected_components(surface.n_vertices, *surface.edges.T)
     size = np.bincount(label, minlength=surface.n_vertices)
     is_small = size <= most
     if surface.n_vertices:

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import RegionError
+from .connected_components import connected_components
 from .edge_list import find_edges
-from .linking import linked_groups
 from .ragged import stretches
 from .surface_mesh import SurfaceMesh
 
@@ -138,7 +138,7 @@ def _linked(vertices: NDArray[np.floating], groups: NDArray[np.int64], distance:
     points = np.empty((n, 3))
     points[groups] = vertices
     first, second = _close_pairs(points, distance)
-    return linked_groups(n, first, second)[groups]
+    return connected_components(n, first, second)[groups]
 
 
 def _close_pairs(points: NDArray[np.float64], distance: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:

@@ -6,7 +6,7 @@ A pass looks at the surface at several scales (`learned.scales`), describes it b
 on pose, size or numbering (`learned.features`), shrinks the differences of neighboring normals by gains that
 a small net makes of them (`learned.net`), and moves the vertices to where the faces have these normals
 (`learned.screened_fit`). The next pass looks at the result of the one before; vertices are always fitted from
-where they were. What is clean stays put (`learned.stillness`).
+where they were. What is clean stays put (`learned.clean_parts`).
 """
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
+from ..learned.clean_parts import clean_places, flat_vertices, hardly_moved
 from ..learned.engine import FaceEngine
 from ..learned.net import N_LAYERS, load_net
 from ..learned.noise_field import find_belief
-from ..learned.stillness import clean_places, flat_vertices, hardly_moved
-from ..learned.taken import Taken
+from ..learned.residual import Residual
 from ..learned.width import wide_share
 from .problem import Problem, Solution
 
@@ -122,14 +122,14 @@ class _Run:
     def next_pass(self, fitted: NDArray[np.float32]) -> NDArray[np.float32]:
         """Return the positions, shape (3, N), after a pass that is guided by fitted ones."""
         is_input = fitted is self.points
-        taken = None if is_input else self.engine.taken(self.points, fitted, self.measured)
-        return self._fitted(self._normals(fitted, taken))
+        residual = None if is_input else self.engine.residual(self.points, fitted, self.measured)
+        return self._fitted(self._normals(fitted, residual))
 
     def _normals(
-        self, points: NDArray[np.float32], taken: Taken | None, *, is_first: bool = False
+        self, points: NDArray[np.float32], residual: Residual | None, *, is_first: bool = False
     ) -> NDArray[np.float32]:
         """Return the normals that the nets want for faces, shape (3, F)."""
-        scales, features = self.engine.describe(points, taken, self._log_strength, self.measured)
+        scales, features = self.engine.describe(points, residual, self._log_strength, self.measured)
         self.unit = scales.unit
         if is_first:
             self.is_free &= ~flat_vertices(points, scales, self.engine.graph, self.measured)

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ..mesh.connectivity import Connectivity
 from .builder import Place, StencilBuilder
-from .members import RingPoints
+from .ring_points import RingPoints
 
 
 def set_rim_pair(

@@ -16,7 +16,7 @@ from ..mesh.half_edges import find_half_edges
 from ..mesh.ragged import stretches
 from ..mesh.surface_mesh import SurfaceMesh
 from .builder import StencilBuilder
-from .walks import Grid
+from .grid import Grid
 
 
 class Cells(NamedTuple):

@@ -16,7 +16,7 @@ from ..blocks import Blocks
 from ..mesh.distance_rings import Ring, distance_rings
 from ..mesh.locality import spatial_order
 from ..mesh.ragged import Ragged
-from .members import RingPoints
+from .ring_points import RingPoints
 from .straight import TIE
 
 CANDIDATES_AT_ONCE = 2**15

@@ -13,11 +13,11 @@ from ..mesh.distance_rings import edge_adjacency, face_adjacency
 from ..mesh.surface_mesh import SurfaceMesh
 from .builder import StencilBuilder
 from .dilation import dilate
-from .members import one_ring_points, quad_points, triangle_points
+from .grid_stencil import make_grid_stencil
 from .quads import fill_quads
+from .ring_points import one_ring_points, quad_points, triangle_points
 from .stencil import Stencil
 from .triangles import ACROSS, fill_triangles
-from .walked import make_grid_stencil
 
 RULES = ("MEAN", "STRAIGHT")
 BOUNDARIES = ("ALONG", "FIXED", "FREE")

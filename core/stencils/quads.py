@@ -11,7 +11,7 @@ from ..blocks import Blocks
 from .boundary import inner_means, set_mirrored, set_rim_pair
 from .builder import StencilBuilder
 from .mean import fill_mean
-from .members import RingPoints
+from .ring_points import RingPoints
 from .straight import HIGHEST_VALENCE, complete_rings, pair_positions
 
 NEAR = ((0, -1), (-1, 0), (0, 1), (1, 0))

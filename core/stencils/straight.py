@@ -14,7 +14,7 @@ from ..blocks import Blocks
 from ..mesh.geometry import coordinate_rows
 from .builder import Place, StencilBuilder
 from .mean import fill_mean
-from .members import RingPoints
+from .ring_points import RingPoints
 
 HIGHEST_VALENCE = 1024
 """Above it the search over all pairs would take more memory than such a fan is worth; MEAN serves there."""

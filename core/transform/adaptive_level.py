@@ -15,7 +15,7 @@ from ..blocks import Blocks
 from ..frames.valence_masks import HarmonicBank, PairwiseBank
 from ..mesh.locality import stable_order
 from ..mesh.ragged import Chunk, Ragged
-from ..stencils.members import RingPoints
+from ..stencils.ring_points import RingPoints
 from .level import Bands, Points, Sites, Visit
 
 

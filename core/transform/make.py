@@ -16,7 +16,7 @@ from ..mesh.distance_rings import distance_rings, edge_adjacency, face_adjacency
 from ..mesh.surface_mesh import SurfaceMesh
 from ..stencils import make_stencil
 from ..stencils.dilation import dilate
-from ..stencils.members import one_ring_points
+from ..stencils.ring_points import one_ring_points
 from .adaptive_level import AdaptiveLevel, Neighbors, ring_neighbors
 from .frame_transform import FrameTransform
 from .lattice_level import LatticeLevel

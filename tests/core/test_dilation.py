@@ -8,7 +8,7 @@ from framelet.core import BANKS, SurfaceMesh, connect, make_stencil
 from framelet.core.blocks import Blocks
 from framelet.core.mesh.distance_rings import distance_rings, edge_adjacency, face_adjacency
 from framelet.core.stencils.dilation import dilate
-from framelet.core.stencils.members import one_ring_points, quad_points, triangle_points
+from framelet.core.stencils.ring_points import one_ring_points, quad_points, triangle_points
 from meshes import MESHES, flipped, noisy, quad_grid, quad_torus, triangle_grid, triangle_torus, union
 from stars import star
 from stencil_twins import MeshTwin, dilated, distances, neighbors_by

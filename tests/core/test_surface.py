@@ -234,7 +234,7 @@ def slow_volume(mesh):
 
 
 def volume_of(mesh):
-    """Return the volume as `FaceWatch` finds it, relative to the first corner."""
+    """Return the volume as `FaceFlips` finds it, relative to the first corner."""
     points = (mesh.vertices - mesh.vertices[:1]).T.astype(float)
     areas = area_rows(points, mesh, 0, mesh.n_faces)
     return float((face_tips(points, mesh, 0, mesh.n_faces) * areas).sum()) / 3

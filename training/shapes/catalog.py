@@ -69,14 +69,19 @@ def family_of(index: int) -> str:
     return names[min(int(np.searchsorted(np.cumsum(weights), place)), len(names) - 1)]
 
 
+def is_coarse(index: int) -> bool:
+    """Return whether a mesh is one of those whose surface bends a lot from face to face."""
+    return FIRST_COARSE <= index < FIRST_SCANNED
+
+
 def _families(index: int) -> dict:
     if index >= FIRST_SCANNED:
         return SCANNED_FAMILIES
-    return FAMILIES if index < FIRST_COARSE else COARSE_FAMILIES
+    return COARSE_FAMILIES if is_coarse(index) else FAMILIES
 
 
 def _target(rng, index: int) -> int:
-    if FIRST_COARSE <= index < FIRST_SCANNED:
+    if is_coarse(index):
         return int(log_uniform(rng, 500, 4500))
     return int(log_uniform(rng, 6000, 14000) if chance(rng, 0.8) else log_uniform(rng, 4200, 22000))
 
@@ -127,7 +132,7 @@ def make(seed: int, index: int) -> tuple[Mesh, str]:
         try:
             mesh = _without_loose_vertices(_families(index)[kind][0](rng, _target(rng, index)))
             mesh = _finished(rng, mesh)
-            reason = problem(mesh, LEAST_COARSE if FIRST_COARSE <= index < FIRST_SCANNED else LEAST_FACES)
+            reason = problem(mesh, LEAST_COARSE if is_coarse(index) else LEAST_FACES)
         except Exception as error:  # a tool that gives up on one shape must not stop the others
             reason = f"{type(error).__name__}: {error}"
         if not reason:

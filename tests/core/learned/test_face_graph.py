@@ -92,7 +92,7 @@ def test_islands_match_a_flood(name, rng):
     for faces in (faces_of(mesh), [faces_of(mesh)[f] for f in shuffled]):
         other = wild_mesh(mesh.vertices, faces)
         expected = parts_of(len(face_order(other)), pairs_of(other))
-        found = find_islands(graph_of(other))
+        found = find_islands(graph_of(other), 1)
         assert (found is None) == (max(expected, default=0) == 0)
         assert found is None or found.tolist() == expected
 
@@ -103,5 +103,5 @@ def test_long_strips_are_one_island(rng):
     faces = np.stack((np.arange(n), np.arange(n) + 1, np.arange(n) + 2), axis=1)
     points = noisy(SurfaceMesh.from_faces(np.arange(3 * n + 6).reshape(-1, 3), faces), rng).vertices
     assert find_islands(graph_of(SurfaceMesh.from_faces(points, faces[rng.permutation(n)]))) is None
-    cut = find_islands(graph_of(SurfaceMesh.from_faces(points, np.delete(faces, [1000, 1001], axis=0))))
+    cut = find_islands(graph_of(SurfaceMesh.from_faces(points, np.delete(faces, [1000, 1001], axis=0))), 1)
     assert np.bincount(cut).tolist() == [1000, n - 1002]

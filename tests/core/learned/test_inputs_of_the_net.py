@@ -7,9 +7,8 @@ import pytest
 from checks import assert_same_bits, lengths, random_rotation
 from framelet.core import SurfaceMesh, connect
 from framelet.core.learned import features as features_module
-from framelet.core.learned import islands as islands_module
+from framelet.core.learned import residual as residual_module
 from framelet.core.learned import scales as scales_module
-from framelet.core.learned import taken as taken_module
 from framelet.core.learned.engine import LONG, FaceEngine, long_edges
 from framelet.core.learned.net import load_net
 from kinds import ALONE, KINDS
@@ -24,8 +23,8 @@ from learned_twins import (
     ring_matrix,
     slow_features,
     slow_offsets,
+    slow_residual,
     slow_scales,
-    slow_taken,
 )
 from meshes import MESHES, noisy, octahedron, quad_torus, tetrahedron, triangle_grid, triangle_torus, union
 from stars import relabeled
@@ -48,8 +47,8 @@ def bumped(mesh):
     return mesh.with_vertices(points)
 
 
-def engine_of(mesh):
-    return FaceEngine(mesh, connect(mesh), ALONE)
+def engine_of(mesh, **sizes):
+    return FaceEngine(mesh, connect(mesh), ALONE, **sizes)
 
 
 def points_of(mesh):
@@ -64,14 +63,14 @@ def matrix_of(rings):
 
 def by_pair(graph, pairs):
     """Return the number of each of the twin's pairs in the graph."""
-    number, taken = {}, set()
+    number, residual = {}, set()
     for place, (f, g) in enumerate(zip(graph.first[:-1].tolist(), graph.second[:-1].tolist(), strict=True)):
         number.setdefault((f, g), []).append(place)
     result = []
     for f, g, _ in pairs:
         result.append(number[f, g][0] if len(number[f, g]) == 1 else number[f, g].pop(0))
-        assert result[-1] not in taken
-        taken.add(result[-1])
+        assert result[-1] not in residual
+        residual.add(result[-1])
     return result
 
 
@@ -79,7 +78,7 @@ def test_the_constants_of_the_twins():
     assert (AVERAGES, np.float32(FLOOR)) == (scales_module.AVERAGES, features_module.FLOOR)
     assert np.float32(SHRUNK) == scales_module.SHRUNK
     assert np.float32(LEAST_LENGTH) == scales_module.LEAST_LENGTH
-    assert SPREAD == features_module.SPREAD_AVERAGES == taken_module.SPREAD_AVERAGES
+    assert SPREAD == features_module.SPREAD_AVERAGES == residual_module.SPREAD_AVERAGES
     assert features_module.N_FACE == 39
 
 
@@ -158,11 +157,11 @@ def test_lengths_are_those_of_edges_but_for_noise(rng):
 def test_other_positions_have_an_engine_of_their_own_if_other_edges_are_long(rng):
     mesh = noisy(triangle_torus(10, 14), rng)
     connectivity, near = connect(mesh), engine_of(mesh)
-    assert near.placed(noisy(mesh, rng), connectivity) is near
+    assert near.for_positions(noisy(mesh, rng), connectivity) is near
     points = mesh.vertices.copy()
     points[17] += 1000
     far = mesh.with_vertices(points)
-    found, expected = near.placed(far, connectivity), engine_of(far)
+    found, expected = near.for_positions(far, connectivity), engine_of(far)
     assert found is not near and found.graph is near.graph and found.at_vertex is near.at_vertex
     assert np.array_equal(matrix_of(found.rings), matrix_of(expected.rings))
     means = matrix_of(near.rings)
@@ -173,9 +172,9 @@ def test_other_positions_have_an_engine_of_their_own_if_other_edges_are_long(rng
         each.fitted = each.fit.fit(points_of(far), each.made[2])
     assert_same_bits(found.made[1].faces, expected.made[1].faces)
     assert_same_bits(found.fitted, expected.fitted)
-    again = found.placed(mesh, connectivity)
+    again = found.for_positions(mesh, connectivity)
     assert again is not found and np.array_equal(matrix_of(again.rings), means)
-    assert found.placed(far, connectivity) is found and near.placed(mesh, connectivity) is near
+    assert found.for_positions(far, connectivity) is found and near.for_positions(mesh, connectivity) is near
 
 
 def test_a_far_vertex_takes_the_mean_of_its_neighbors_and_counts_for_none(rng):
@@ -200,35 +199,35 @@ def test_what_was_taken_away(kind, rng):
     offsets = slow_offsets(before, after.vertices)
     found = engine.offsets(points_of(before), points_of(after))
     assert np.abs(found - offsets).max() < 1e-5
-    strength, correlation = slow_taken(matrix_of(engine.rings), offsets)
-    for taken in (
-        engine.taken(points_of(before), points_of(after)),
-        taken_module.find_taken(offsets.astype(np.float32), engine.rings),
+    strength, correlation = slow_residual(matrix_of(engine.rings), offsets)
+    for residual in (
+        engine.residual(points_of(before), points_of(after)),
+        residual_module.find_residual(offsets.astype(np.float32), engine.rings),
     ):
-        assert taken.strength.dtype == taken.correlation.dtype == np.float32
-        assert np.abs(taken.strength - strength).max() < 1e-4
-        assert np.abs(taken.correlation - correlation)[strength > 1e-3].max(initial=0) < 1e-3
-        assert (np.abs(taken.correlation) <= 1).all()
+        assert residual.strength.dtype == residual.correlation.dtype == np.float32
+        assert np.abs(residual.strength - strength).max() < 1e-4
+        assert np.abs(residual.correlation - correlation)[strength > 1e-3].max(initial=0) < 1e-3
+        assert (np.abs(residual.correlation) <= 1).all()
 
 
 def test_nothing_taken_away_is_not_correlated(rng):
     mesh = noisy(KINDS["mixed sheet"](), rng)
-    taken = engine_of(mesh).taken(points_of(mesh), points_of(mesh))
-    assert not taken.strength.any() and not taken.correlation.any()
+    residual = engine_of(mesh).residual(points_of(mesh), points_of(mesh))
+    assert not residual.strength.any() and not residual.correlation.any()
 
 
 def test_the_pass_before_is_seen_in_two_columns_only(rng):
     mesh = noisy(KINDS["mixed sheet"](), rng)
     engine = engine_of(mesh)
-    taken = engine.taken(points_of(noisy(mesh, rng)), points_of(mesh))
+    residual = engine.residual(points_of(noisy(mesh, rng)), points_of(mesh))
     _, first = engine.describe(points_of(mesh))
-    _, second = engine.describe(points_of(mesh), taken)
-    assert features_module.N_TAKEN == 2 and not first.faces[:, 37:].any()
+    _, second = engine.describe(points_of(mesh), residual)
+    assert features_module.N_RESIDUAL == 2 and not first.faces[:, 37:].any()
     assert_same_bits(second.faces[:, :37].copy(), first.faces[:, :37].copy())
     assert_same_bits(second.pairs, first.pairs)
     assert np.abs(second.faces[:, 37:]).min(axis=0).min() > 0
     # What a usual noise leaves is near 0, as in a first pass; none at all is far from it.
-    usual = taken_module.Taken(np.full(mesh.n_vertices, 0.13, np.float32), 0 * taken.correlation)
+    usual = residual_module.Residual(np.full(mesh.n_vertices, 0.13, np.float32), 0 * residual.correlation)
     _, found = engine.describe(points_of(mesh), usual)
     assert np.abs(found.faces[:, 37]).max() < 0.5 and not found.faces[:, 38].any()
     _, nothing = engine.describe(points_of(mesh), usual._replace(strength=0 * usual.strength))
@@ -237,16 +236,15 @@ def test_the_pass_before_is_seen_in_two_columns_only(rng):
 
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize(("log_strength", "is_first"), [(0.0, True), (0.7, True), (-0.5, False)])
-def test_features(kind, log_strength, is_first, rng, monkeypatch):
-    monkeypatch.setattr(islands_module, "LEAST_ISLAND", 4)
+def test_features(kind, log_strength, is_first, rng):
     mesh = KINDS[kind]()
     if kind not in ("a flat part", "half a sheet"):
         mesh = noisy(mesh, rng)
-    engine = engine_of(mesh)
-    taken = None
+    engine = engine_of(mesh, least_island=4)
+    residual = None
     if not is_first:
-        taken = engine.taken(points_of(noisy(mesh, rng)), points_of(mesh))
-    scales, found = engine.describe(points_of(mesh), taken, log_strength)
+        residual = engine.residual(points_of(noisy(mesh, rng)), points_of(mesh))
+    scales, found = engine.describe(points_of(mesh), residual, log_strength)
     # The twin takes the same scales, so that what rounding does to thin faces does not count.
     same = (
         scales.normals.transpose(1, 2, 0),
@@ -255,7 +253,7 @@ def test_features(kind, log_strength, is_first, rng, monkeypatch):
         scales.length,
     )
     same = [x.astype(float) for x in same]
-    faces, pairs, context = slow_features(mesh, matrix_of(engine.rings), same, taken, log_strength, 4)
+    faces, pairs, context = slow_features(mesh, matrix_of(engine.rings), same, residual, log_strength, 4)
     island = np.zeros(len(faces), int) if found.island is None else found.island
     assert np.abs(found.context[island] - context).max() < 5e-3
     assert np.abs(found.quantiles - found.context[:, :16]).max() == pytest.approx(2 * abs(log_strength))
@@ -277,7 +275,7 @@ def test_features_do_not_depend_on_pose_and_numbers(kind, rng):
 
     def described(mesh, before):
         engine = engine_of(mesh)
-        return engine.describe(points_of(mesh), engine.taken(points_of(before), points_of(mesh)))
+        return engine.describe(points_of(mesh), engine.residual(points_of(before), points_of(mesh)))
 
     _, plain = described(mesh, before)
     turned = mesh.with_vertices(mesh.vertices @ turn)
@@ -290,14 +288,13 @@ def test_features_do_not_depend_on_pose_and_numbers(kind, rng):
     assert np.abs(np.sort(found.pairs, axis=0) - np.sort(plain.pairs, axis=0)).max() < 0.02
 
 
-def test_islands_are_described_as_if_alone(rng, monkeypatch):
+def test_islands_are_described_as_if_alone(rng):
     """Also with other lengths of edges, and among faces of other kinds."""
-    monkeypatch.setattr(islands_module, "LEAST_ISLAND", 50)
     first = noisy(triangle_torus(10, 14), rng, 0.1)
     second = noisy(quad_torus(8, 10), rng, 0.3)
     second = second.with_vertices(7 * second.vertices)
     both = union(first, second)
-    own = engine_of(both)
+    own = engine_of(both, least_island=50)
     _, found = own.describe(points_of(both))
     order = np.array(face_order(both))
     for mesh, part in ((first, order < first.n_faces), (second, order >= first.n_faces)):
@@ -308,19 +305,21 @@ def test_islands_are_described_as_if_alone(rng, monkeypatch):
 def test_small_islands_are_described_together(rng):
     mesh = union(noisy(triangle_torus(5, 6), rng, 0.1), noisy(triangle_torus(5, 6), rng, 0.4))
     engine = engine_of(mesh)
-    assert engine.island is not None
+    assert engine.island is None
+    assert np.unique(engine_of(mesh, least_island=50).island).tolist() == [0, 1]
     _, found = engine.describe(points_of(mesh))
     assert (found.faces[:, 21:] == found.faces[0, 21:]).all()
 
 
-def test_quantiles_of_large_meshes_are_those_of_a_sample(rng, monkeypatch):
-    mesh = noisy(triangle_torus(30, 40), rng)
-    engine = engine_of(mesh)
-    _, whole = engine.describe(points_of(mesh))
-    monkeypatch.setattr(features_module, "N_SAMPLES", 400)
-    _, found = engine.describe(points_of(mesh))
-    assert np.array_equal(found.faces[:, :21], whole.faces[:, :21])
-    assert 0 < np.abs(found.faces[:, 21:] - whole.faces[:, 21:]).max() < 0.5
+def test_quantiles_of_large_meshes_are_those_of_a_sample(rng):
+    energies = rng.normal(size=(20_000, 8)).astype(np.float32)
+    is_flat = rng.random(len(energies)) < 0.2
+    energies[is_flat] = 100
+    whole, found = (features_module.quantiles_of(energies, is_flat, n) for n in (len(energies), 4000))
+    assert np.abs(whole[:3] - np.quantile(energies[~is_flat, 0], (0.25, 0.5, 0.75))).max() < 1e-3
+    assert 0 < np.abs(found - whole).max() < 0.1
+    few = energies[:300], is_flat[:300]
+    assert_same_bits(features_module.quantiles_of(*few), features_module.quantiles_of(*few, 300))
 
 
 @pytest.mark.parametrize("build", [MESHES["single triangle"], MESHES["single quad"], MESHES["tetrahedron"]])

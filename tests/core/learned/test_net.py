@@ -138,11 +138,11 @@ def test_it_ticks_after_each_layer(rng):
     assert len(ticks) == net.N_LAYERS
 
 
-def test_large_products_are_taken_in_pieces(rng, monkeypatch):
-    monkeypatch.setattr(rows_module, "SMALL_PRODUCT", 300)
-    rows, matrix = rng.normal(size=(101, 7)).astype(np.float32), rng.normal(size=(7, 5)).astype(np.float32)
+def test_large_products_are_made_in_pieces(rng):
+    matrix = rng.normal(size=(7, 5)).astype(np.float32)
+    rows = rng.normal(size=(3 * rows_module.SMALL_PRODUCT // matrix.size + 101, 7)).astype(np.float32)
     assert np.abs(rows_module.times(rows, matrix) - rows @ matrix).max() < 1e-5
-    out = np.full((101, 5), np.nan, np.float32)
+    out = np.full((len(rows), 5), np.nan, np.float32)
     assert rows_module.times(rows, matrix, out) is out and np.isfinite(out).all()
 
 

@@ -7,12 +7,12 @@ import pytest
 from checks import AS_SOLVED, assert_same_bits, lengths, wild_mesh
 from framelet.core import PRESETS, Region, denoise
 from framelet.core.blocks import Blocks
-from framelet.core.limits.face_watch import DEGENERATE, FaceWatch
+from framelet.core.limits.face_flips import DEGENERATE, FaceFlips
 from framelet.core.limits.folds import damp_until_valid
-from framelet.core.mesh.carrier import WeldedMesh
 from framelet.core.mesh.connectivity import connect
 from framelet.core.mesh.corner_lists import corners_around
 from framelet.core.mesh.geometry import face_area_vectors, mean_edge_length, vertex_normals
+from framelet.core.mesh.welded_mesh import WeldedMesh
 from mesh_files import mesh_files, read_mesh
 from meshes import MESHES, faces_of, flipped, noisy, quad_torus, triangle_grid, triangle_torus
 from region_cases import METHODS, exploded
@@ -24,7 +24,7 @@ TURN_OVER = 4.0
 
 def watch_of(mesh, threads=2):
     welded = WeldedMesh(mesh, mesh, connect(mesh), mean_edge_length(mesh))
-    return FaceWatch(welded, Blocks(threads, block_size=50))
+    return FaceFlips(welded, Blocks(threads, block_size=50))
 
 
 def folded_by_a_loop(mesh):
@@ -267,7 +267,7 @@ def test_corners_around_vertices_match_a_search(name, rng):
 def test_faces_that_are_known_already_give_the_same(rng):
     mesh = noisy(triangle_torus(12, 30), rng, 0.4)
     first = watch_of(mesh)
-    again = FaceWatch(first.welded, Blocks(1), first.before)
+    again = FaceFlips(first.welded, Blocks(1), first.before)
     other = noisy(mesh, rng, 0.4)
     areas = first.before.areas.copy()
     for watch in (first, again):

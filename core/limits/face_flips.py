@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
-from ..mesh.carrier import WeldedMesh
 from ..mesh.corner_lists import corners_around, corners_of, face_of, faces_at, some_faces
 from ..mesh.geometry import area_rows, face_tips
 from ..mesh.surface_mesh import SurfaceMesh
+from ..mesh.welded_mesh import WeldedMesh
 
 DEGENERATE = 1e-6
 """Area up to which a face counts as degenerate."""
@@ -31,7 +31,7 @@ class FaceState(NamedTuple):
     is_degenerate: NDArray[np.bool_]
 
 
-class FaceWatch:
+class FaceFlips:
     """Compares the faces of a mesh with those of its input.
 
     Normals and areas are those of the original surface; which faces are neighbors is what the mesh that was

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a pass took away: how strong it is around each vertex, and how alike at neighbors."""
+"""The residual of a pass, what it took away: how strong it is around each vertex, how alike at neighbors."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ LEAST_SHARE = np.float32(0.02)
 """Share of the vertices around one that has to be movable to say what was taken there."""
 
 
-class Taken(NamedTuple):
+class Residual(NamedTuple):
     """Root mean square of displacements around vertices, and correlation with the ring, shape (N,)."""
 
     strength: NDArray[np.float32]
     correlation: NDArray[np.float32]
 
 
-def find_taken(
+def find_residual(
     offsets: NDArray[np.float32], rings: RingMeans, movable: NDArray[np.bool_] | None = None
-) -> Taken:
+) -> Residual:
     """Return strength and correlation of displacements along the normals, shape (N,).
 
     Only vertices that are `movable`, shape (N,), count; None for all.
@@ -44,4 +44,4 @@ def find_taken(
     if movable is not None:
         # The others did not move, whatever their noise.
         square /= np.maximum(moments[:, 2], LEAST_SHARE)
-    return Taken(np.sqrt(square), np.clip(correlation, -1, 1, out=correlation))
+    return Residual(np.sqrt(square), np.clip(correlation, -1, 1, out=correlation))

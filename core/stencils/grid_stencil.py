@@ -13,10 +13,10 @@ from ..mesh.ragged import stretches
 from ..mesh.surface_mesh import SurfaceMesh
 from .builder import Place, StencilBuilder
 from .cells import fill_cells, find_cells
+from .grid import Grid, Steps
 from .quads import NEAR
 from .stencil import Stencil
 from .triangles import RING
-from .walks import Grid, Steps
 
 
 def make_grid_stencil(

@@ -10,12 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import RegionError
-from ..mesh.carrier import WeldedMesh
 from ..mesh.checks import check_positions
 from ..mesh.connectivity import Connectivity
 from ..mesh.locality import Reordering
 from ..mesh.surface_mesh import SurfaceMesh
 from ..mesh.weld import Weld, make_weld
+from ..mesh.welded_mesh import WeldedMesh
 from .region import Region
 
 

@@ -8,7 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 
-def linked_groups(n_items: int, first: NDArray[np.integer], second: NDArray[np.integer]) -> NDArray[np.int32]:
+def connected_components(
+    n_items: int, first: NDArray[np.integer], second: NDArray[np.integer]
+) -> NDArray[np.int32]:
     """Return the lowest item that each item is linked to, directly or through others, shape (n,), int32.
 
     `first` and `second`, shape (p,), are the pairs. Each item points to a lower one of its component. In a
@@ -17,7 +19,7 @@ def linked_groups(n_items: int, first: NDArray[np.integer], second: NDArray[np.i
 
     Examples
     --------
-    >>> linked_groups(5, np.array([4, 2]), np.array([2, 1])).tolist()
+    >>> connected_components(5, np.array([4, 2]), np.array([2, 1])).tolist()
     [0, 1, 1, 3, 1]
     """
     label = np.arange(n_items, dtype=np.int32)

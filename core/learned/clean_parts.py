@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from ..averages.ring_means import RingMeans
 from ..blocks import Blocks
+from ..mesh.connected_components import connected_components
 from ..mesh.connectivity import Connectivity
-from ..mesh.linking import linked_groups
 from ..mesh.ragged import Ragged
 from ..mesh.surface_mesh import SurfaceMesh
 from ..noise.fits import fit_heights
@@ -160,7 +160,7 @@ def _flat_faces(
     graph.for_pairs(compare)
     graph.for_faces(count)
     pairs = np.flatnonzero(is_pair)
-    part = linked_groups(graph.n_faces, graph.first[pairs], graph.second[pairs])
+    part = connected_components(graph.n_faces, graph.first[pairs], graph.second[pairs])
     sizes = np.bincount(part, n_triangles, graph.n_faces)
     is_flat: NDArray[np.bool_] = sizes[part] >= min(
         FLAT_FACES, max(2.0, FLAT_SHARE * n_triangles[counted].sum())

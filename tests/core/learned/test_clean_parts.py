@@ -7,7 +7,7 @@ import pytest
 import region_cases
 from checks import random_rotation
 from framelet.core import SurfaceMesh, connect, denoise
-from framelet.core.learned import stillness
+from framelet.core.learned import clean_parts
 from framelet.core.learned.engine import FaceEngine
 from framelet.core.learned.scales import find_scales
 from kinds import ALONE
@@ -59,7 +59,7 @@ def test_flat_vertices(name, share, rng):
     mesh = bumpy_in_places((MESHES | SHEETS)[name](), share, rng)
     engine, points, scales = described(mesh)
     means = engine.rings.outward(engine.rings.mean(engine.rings.inward(np.eye(mesh.n_vertices))))
-    found = stillness.flat_vertices(points, scales, engine.graph)
+    found = clean_parts.flat_vertices(points, scales, engine.graph)
     assert found.tolist() == slow_flat_vertices(mesh, slow_scales(mesh, means)).tolist()
     assert share > 0 or found.mean() > 0.7
 
@@ -71,7 +71,7 @@ def flat_with(clean, *parts):
     for part in parts:
         points[part, 2] = 0
     engine, points, scales = described(clean.with_vertices(points))
-    return set(np.flatnonzero(stillness.flat_vertices(points, scales, engine.graph)).tolist())
+    return set(np.flatnonzero(clean_parts.flat_vertices(points, scales, engine.graph)).tolist())
 
 
 def strip(columns, row, n_triangles):
@@ -126,7 +126,7 @@ def test_a_spike_beside_a_face_without_area_is_not_flat():
     mesh = SurfaceMesh.from_faces(points, faces)
     assert connect(mesh).is_non_manifold.sum() == 0
     engine, points, scales = described(mesh)
-    is_flat = stillness.flat_vertices(points, scales, engine.graph)
+    is_flat = clean_parts.flat_vertices(points, scales, engine.graph)
     assert not is_flat[spike] and is_flat.sum() > 250
     assert not still_of(mesh)[spike]
 
@@ -144,7 +144,7 @@ def test_what_a_pass_hardly_moved(share, strength, rng):
     offsets[rng.permutation(mesh.n_vertices)[:3]] = 0.5
     offsets = offsets.astype(np.float32)
     means = engine.rings.outward(engine.rings.mean(engine.rings.inward(np.eye(mesh.n_vertices))))
-    found = stillness.hardly_moved(offsets, is_clean, is_free, engine.rings)
+    found = clean_parts.hardly_moved(offsets, is_clean, is_free, engine.rings)
     assert found.tolist() == slow_hardly_moved(offsets.astype(float), is_clean, is_free, means).tolist()
     assert not found[offsets == 0.5].any()
     assert share == 0 or strength > 0.02 or found[is_clean].mean() > 0.5
@@ -155,7 +155,7 @@ def test_nothing_that_was_still_moves_where_nothing_is_free():
     engine = described(triangle_torus())[0]
     nothing = np.zeros(192, np.float32)
     for is_clean in (np.zeros(192, bool), np.ones(192, bool)):
-        found = stillness.hardly_moved(nothing, is_clean, ~is_clean & is_clean, engine.rings)
+        found = clean_parts.hardly_moved(nothing, is_clean, ~is_clean & is_clean, engine.rings)
         assert found.tolist() == is_clean.tolist()
 
 
@@ -167,7 +167,7 @@ def test_places_are_clean_where_polynomials_fit(sigma, rng):
     for part in (is_noisy, np.ones_like(is_noisy)):
         mesh = clean.with_vertices(np.where(part[:, None], noisy(clean, rng, sigma).vertices, clean.vertices))
         engine, points, scales = described(mesh)
-        found = stillness.clean_places(points, mesh, connect(mesh), scales.unit, engine.rings, ALONE)
+        found = clean_parts.clean_places(points, mesh, connect(mesh), scales.unit, engine.rings, ALONE)
         far = np.abs(clean.vertices[:, 0]) > 0.8
         assert found.all() if sigma == 0 else not found[part & far].any() and found[~part & far].all()
 

@@ -28,10 +28,10 @@ class RingPoints:
     connectivity : Connectivity
         The mesh; `ring_offset` and `valence` say which ring points belong to a vertex.
     near : ndarray, shape (R,), int32
-        One member for each edge neighbor, in ring order; -1 where none was found.
+        One point for each edge neighbor, in ring order; -1 where none was found.
     far : ndarray, shape (R,), int32, or None
-        The member between this edge neighbor and the next one; -1 where there is none. None if a lattice
-        needs no far ring_points.
+        The point between this edge neighbor and the next one; -1 where there is none. None if a lattice
+        needs no far points.
     """
 
     connectivity: Connectivity
