@@ -18,8 +18,8 @@ from ..mesh.welded_mesh import WeldedMesh
 DEGENERATE = 1e-6
 """Area up to which a face counts as degenerate."""
 
-LOOKED_AROUND_AT_ONCE = 4096
-"""Faces whose surroundings are added up in one piece."""
+FACES_AT_ONCE = 4096
+"""Faces in a block, so that what a kernel holds of them stays in the cache."""
 
 
 class FaceState(NamedTuple):
@@ -64,7 +64,7 @@ class FaceFlips:
 
     def __init__(self, welded: WeldedMesh, blocks: Blocks, before: FaceState | None = None) -> None:
         self.welded = welded
-        self._blocks = blocks
+        self._blocks = blocks.with_block_size(min(blocks.block_size, FACES_AT_ONCE))
         surface = welded.surface
         # Near the mesh, so that volumes of one far away lose no digits.
         self._origin = surface.vertices[surface.corner_vertex[:1]].astype(np.float64).mean(axis=0)
@@ -208,7 +208,7 @@ class FaceFlips:
             wanted = part if faces is None else faces[part]
             folded[part] = dots(areas[:, wanted], self._around(areas, wanted)) < 0.0
 
-        self._blocks.with_block_size(LOOKED_AROUND_AT_ONCE).run(look_around, len(some))
+        self._blocks.run(look_around, len(some))
         return folded
 
     def _neighbors_disagree(

@@ -51,7 +51,7 @@ def main(words=None):
     with tempfile.TemporaryDirectory() as folder:
         for path in paths:
             old, new = (
-                results_of(checkout.resolve(), path, Path(folder) / f"{name}.npz", options.weights, shake)
+                results_of(checkout.resolve(), path, Path(folder) / f"{name}.npz", options, shake)
                 for name, checkout, shake in (("old", options.old, 0.0), ("new", options.new, options.shake))
             )
             for case, distances, is_same in differences(old, new):
@@ -82,15 +82,17 @@ def parsed(words):
         type=Path,
         help="a folder with the arrays of the nets, such as core/learned, that both use",
     )
+    parser.add_argument("--presets", nargs="+", help="by default all that both have")
     parser.add_argument(
         "--shake", action="store_const", const=SHAKE, default=0.0, help="move the input of NEW by a last bit"
     )
     return parser.parse_args(words)
 
 
-def results_of(checkout, path, out, weights, shake):
+def results_of(checkout, path, out, options, shake):
     """Return the results of a checkout by case, and the mean edge length; it runs in a process of its own."""
-    words = ["--one", str(checkout), str(path), str(out), str(weights or ""), str(shake)]
+    presets = " ".join(options.presets or ())
+    words = ["--one", str(checkout), str(path), str(out), str(options.weights or ""), str(shake), presets]
     subprocess.run([sys.executable, __file__, *words], check=True)
     with np.load(out) as file:
         return dict(file)
@@ -112,7 +114,7 @@ def differences(old, new):
             yield case, distances / edge, old[case].tobytes() == new[case].tobytes()
 
 
-def write_results(checkout, path, out, weights, shake):
+def write_results(checkout, path, out, weights, shake, presets):
     """Write what a checkout makes of a mesh, with and without noise, with each of its presets."""
     core = loaded_core(checkout, weights)
     vertices, faces = read_ply(path)
@@ -124,6 +126,8 @@ def write_results(checkout, path, out, weights, shake):
         positions = (vertices + level * noise + shake * last_bits).astype(np.float32)
         surface = core.SurfaceMesh.from_faces(positions, faces)
         for name, preset in core.PRESETS.items():
+            if presets and name not in presets:
+                continue
             try:
                 results[f"{name} {word}"] = core.denoise(surface, preset.settings).vertices
             except ValueError as error:  # as frames for quads do on triangles
@@ -166,7 +170,7 @@ def read_ply(path):
 
 if __name__ == "__main__":
     if sys.argv[1:2] == ["--one"]:
-        where, mesh, target, own_weights, moved = sys.argv[2:]
-        write_results(Path(where), Path(mesh), target, own_weights, float(moved))
+        where, mesh, target, own_weights, moved, chosen = sys.argv[2:]
+        write_results(Path(where), Path(mesh), target, own_weights, float(moved), chosen.split())
     else:
         sys.exit(main())
