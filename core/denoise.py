@@ -51,7 +51,7 @@ def denoise(
     region : Region, optional
         Weights, feature lines and other limits; by default there are none, and folds are repaired.
     connectivity : Connectivity, optional
-        Neighborhoods of the mesh, if they are known already; not looked at if the region welds vertices.
+        Neighborhoods of the mesh, if they are known already; ignored if the region welds vertices.
     callback : callable, optional
         `callback(fraction, change) -> bool` after each iteration; see `problem.Callback`.
     should_stop : callable, optional
@@ -59,15 +59,15 @@ def denoise(
     dtype : dtype, optional
         Precision of the solver: float32 for speed, float64 for exactness.
     prepared : Prepared or PreparationCache, optional
-        What `prepare` made for this mesh and the same stencils, or a cache that sees to it.
+        What `prepare` made for this mesh and the same stencils, or a cache that supplies it.
     max_bytes : int, optional
         How much memory the run may take; by default there is no limit.
 
     Returns
     -------
     DenoiseResult
-        Positions in the dtype of the input; vertices that did not move have the same bits. If `callback`
-        stopped the run they are what was reached, if `should_stop` did, the input.
+        Positions in the dtype of the input; vertices that did not move are bit-identical. If `callback`
+        stopped the run, they are what was reached; if `should_stop` did, the input.
 
     Raises
     ------

@@ -55,7 +55,7 @@ def shrink_positions(problem: Problem) -> Solution:
     assert problem.transform is not None
     callback, n_all = problem.callback, settings.iterations
 
-    def watch(iteration: int, _: NDArray[np.floating], motion: float) -> bool:
+    def after_step(iteration: int, _: NDArray[np.floating], motion: float) -> bool:
         return callback is not None and callback((iteration - 1) / (n_all - 1), motion)
 
     points, iterations, is_stopped = split_bregman(
@@ -65,7 +65,7 @@ def shrink_positions(problem: Problem) -> Solution:
         Steps(settings.mu, settings.delta, n_all, settings.tolerance),
         problem.constraints,
         problem.blocks,
-        watch,
+        after_step,
     )
     return Solution(points, iterations, is_stopped, settings, noise)
 

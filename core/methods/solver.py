@@ -93,13 +93,13 @@ def split_bregman(
     g: Penalty = known or (prox if hasattr(prox, "removed") else OwnPenalty(prox, penalty))  # type: ignore
     noisy = np.ascontiguousarray(positions.T, transform.dtype)
 
-    def watch(iteration: int, points: NDArray[np.floating], _: float) -> bool:
+    def after_step(iteration: int, points: NDArray[np.floating], _: float) -> bool:
         if callback is None:
             return False
         objective = _objective(points, noisy, transform, g)
         return bool(callback(iteration, np.ascontiguousarray(points.T), objective))
 
-    found = iterate(noisy, transform, g, Steps(mu, delta, iterations, tolerance), None, Blocks(1), watch)
+    found = iterate(noisy, transform, g, Steps(mu, delta, iterations, tolerance), None, Blocks(1), after_step)
     return np.ascontiguousarray(found[0].T)
 
 

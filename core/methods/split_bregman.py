@@ -17,8 +17,8 @@ from ..transform.level import Bands, Level
 from .problem import rms_motion
 from .proximal import Penalty
 
-Watch = Callable[[int, NDArray[np.floating], float], bool]
-"""`watch(iteration, points, motion)`: iterations done, positions (3, N) and rms motion of the last one;
+Callback = Callable[[int, NDArray[np.floating], float], bool]
+"""`callback(iteration, points, motion)`: iterations done, positions (3, N) and rms motion of the last one;
 returns True to stop."""
 
 
@@ -38,7 +38,7 @@ def split_bregman(
     steps: Steps,
     constraints: Constraints | None,
     blocks: Blocks,
-    callback: Watch | None = None,
+    callback: Callback | None = None,
 ) -> tuple[NDArray[np.floating], int, bool]:
     """Minimize 1/2 |S - S~|^2 + g(W S), with g = lambda |.|_1 in the paper (4.1).
 
@@ -55,7 +55,7 @@ def split_bregman(
     constraints : Constraints or None
         Vertices that may not move freely.
     callback : callable, optional
-        See `Watch`.
+        See `Callback`.
 
     Returns
     -------
