@@ -16,7 +16,7 @@ from .plates import make_plate
 from .quads import make_coarse_quads, make_quads
 from .scanned import make_scanned
 from .shells import make_shell
-from .sweeps import make_ball, make_sweep
+from .sweeps import make_ball, make_sweep, make_thin_tube
 from .terrain import make_terrain
 from .uneven import make_uneven
 
@@ -53,6 +53,15 @@ FIRST_SCANNED = 1050
 
 SCANNED_FAMILIES = {"scanned": (make_scanned, 3.0), "ball": (make_ball, 1.0)}
 
+FIRST_TINY = 1250
+"""Number of the first mesh of a few hundred faces: thin tubes, blocky bodies."""
+
+TINY_FAMILIES = {
+    "quads": (make_coarse_quads, 3.0),
+    "tube": (make_thin_tube, 3.0),
+    "organic": (make_organic, 2.0),
+}
+
 N_TRIES = 6
 LEAST_FACES, LEAST_COARSE = 3000, 350
 MOST_FACES = 26000
@@ -71,10 +80,12 @@ def family_of(index: int) -> str:
 
 def is_coarse(index: int) -> bool:
     """Return whether a mesh is one of those whose surface bends a lot from face to face."""
-    return FIRST_COARSE <= index < FIRST_SCANNED
+    return FIRST_COARSE <= index < FIRST_SCANNED or index >= FIRST_TINY
 
 
 def _families(index: int) -> dict:
+    if index >= FIRST_TINY:
+        return TINY_FAMILIES
     if index >= FIRST_SCANNED:
         return SCANNED_FAMILIES
     return COARSE_FAMILIES if is_coarse(index) else FAMILIES
@@ -82,7 +93,7 @@ def _families(index: int) -> dict:
 
 def _target(rng, index: int) -> int:
     if is_coarse(index):
-        return int(log_uniform(rng, 500, 4500))
+        return int(log_uniform(rng, 500, 4500 if index < FIRST_TINY else 1500))
     return int(log_uniform(rng, 6000, 14000) if chance(rng, 0.8) else log_uniform(rng, 4200, 22000))
 
 

@@ -72,12 +72,14 @@ def capped(rng, points, style: str, poles) -> Mesh:
     return flipped(from_lists(vertices, faces))
 
 
-def _counts(rng, target: int, style: str, ratio: float, longest: float = 2.0) -> tuple[int, int]:
+def _counts(
+    rng, target: int, style: str, ratio: float, longest: float = 2.0, least: int = 12
+) -> tuple[int, int]:
     """Numbers of points along and around, for cells whose sides have a random ratio."""
     cells = target if style == "quads" else target / 2
     cell = log_uniform(rng, 1 / longest, longest)
     n_u = int(np.clip(np.sqrt(cells * ratio * cell), 12, 1500))
-    return n_u, max(12, int(cells / n_u))
+    return n_u, max(least, int(cells / n_u))
 
 
 def _curve(rng, n: int, is_closed: bool):
@@ -154,12 +156,12 @@ def _section(rng, angle, along):
     return 1 + deep * np.abs(2 * ((turns * along + angle / (2 * np.pi)) % 1) - 1)
 
 
-def tube(rng, target: int) -> Mesh:
-    """Sweep a section along a curve: tubes, hoses, knots, horns, rings."""
+def tube(rng, target: int, least: int = 12) -> Mesh:
+    """Sweep a section along a curve: tubes, hoses, knots, horns, rings; with `least` cells around or more."""
     is_closed = chance(rng, 0.5)
     style = grid_style(rng)
     radius = log_uniform(rng, 0.06, 0.28)
-    n_u, n_v = _counts(rng, target, style, 8.0 / (2 * np.pi * radius), 3.0)
+    n_u, n_v = _counts(rng, target, style, 8.0 / (2 * np.pi * radius), 3.0, least)
     curve = _curve(rng, n_u, is_closed)
     normal, binormal, _ = _frames(curve, is_closed)
     along = np.linspace(0, 1, n_u, endpoint=not is_closed)[:, None]
@@ -282,6 +284,11 @@ def make_ball(rng, target: int) -> Mesh:
     if chance(rng, 0.5):
         return ball
     return isotropic(ball.moved(ball.vertices * np.exp(rng.uniform(-0.7, 0.7, 3))), target, 180)
+
+
+def make_thin_tube(rng, target: int) -> Mesh:
+    """Make a tube of few faces around."""
+    return tube(rng, target, least=5)
 
 
 def make_sweep(rng, target: int) -> Mesh:
