@@ -33,10 +33,13 @@ LOSS_FLOOR = 0.004
 AVERAGE = 0.998
 """Decay of the running mean of the weights, which is what is exported; less at the start."""
 
-RELIEF = {"fine": 0.5, "wide": 0.05}
+RELIEF = {"fine": 0.3, "wide": 0.03}
 """Share of the shapes with relief that keep all of it. It is finer than that of most real meshes, which are
-sampled until nothing is finer than a few edges; with all of it wide noise is taken for relief. Coarse meshes
-keep theirs."""
+sampled until nothing is finer than a few edges; with all of it wide noise is taken for relief."""
+
+SMOOTHEST = 200
+"""Most averages over the others, down to 4. Shapes of ten thousand faces bend as much from face to face with
+few averages as real meshes, which have more faces, with many."""
 
 SCANS = 2
 """How often range images are drawn for once that others are: what scanners make is what has to be right."""
@@ -127,12 +130,15 @@ def validate(net: Net, draws: Sequence[Draw]) -> tuple[float, str]:
     return float(np.mean([value for values in by_kind.values() for value in values])), text
 
 
-def load(path: Path, rng: np.random.Generator, relief: float) -> SampleMesh:
-    """Read a mesh; those with relief are made smooth first, but for a share that keeps all of it."""
+def load(path: Path, rng: np.random.Generator, width: str) -> SampleMesh:
+    """Read a mesh for the net "fine" or "wide"; most of those with relief are made smooth first.
+
+    Coarse ones stay rough for fine noise: on real meshes, too, few faces are left for what they show.
+    """
     mesh, index = SampleMesh.load(path), int(path.stem)
-    has_relief = family_of(index) in ("organic", "islands", "terrain") and not is_coarse(index)
-    if has_relief and rng.random() > relief:
-        return mesh.smoothed(round(noise.log_uniform(rng, 3, 24)))
+    has_relief = family_of(index) in ("organic", "islands", "terrain")
+    if has_relief and (width == "wide" or not is_coarse(index)) and rng.random() > RELIEF[width]:
+        return mesh.smoothed(round(noise.log_uniform(rng, 4, SMOOTHEST)))
     return mesh
 
 
@@ -194,7 +200,7 @@ def train(
     held_out = [path for path in paths if int(path.stem) % 20 == 0]
     meshes: dict[Path, SampleMesh] = {}
     trial = np.random.default_rng(1000)
-    held = [load(path, trial, RELIEF[width]) for path in held_out[:14]]
+    held = [load(path, trial, width) for path in held_out[:14]]
     net, average = Net(REPEATS[width]), Net(REPEATS[width])
     validation = [Draw(held[number % len(held)], trial, width) for number in range(42)]
     optimizer = torch.optim.Adam(net.parameters(), lr=LARGEST_RATE, betas=(0.9, 0.98))
@@ -225,7 +231,7 @@ def train(
             paths += [path for path in paths if family_of(int(path.stem)) == "scanned"] * (SCANS - 1)
         path = paths[rng.integers(len(paths))]
         if path not in meshes:
-            meshes[path] = load(path, rng, RELIEF[width])
+            meshes[path] = load(path, rng, width)
         mesh = meshes[path]
         if mesh.engine.graph.n_faces > MOST_FACES:
             continue

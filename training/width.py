@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from core.learned.width import terms
 
 from .net import Net
-from .train import MOST_FACES, RELIEF, Draw, both_passes, load
+from .train import MOST_FACES, Draw, both_passes, load
 
 RIDGE = 20.0
 """Penalty on the squares of the weights: draws are few beside terms."""
@@ -38,7 +38,7 @@ def compare(
     quantiles, gains = [], []
     while len(gains) < n_draws:
         width = ("fine", "wide")[len(gains) % 2]
-        mesh = load(paths[rng.integers(len(paths))], rng, RELIEF[width])
+        mesh = load(paths[rng.integers(len(paths))], rng, width)
         if mesh.engine.graph.n_faces > MOST_FACES:
             continue
         draw = Draw(mesh, rng, width)
