@@ -3,6 +3,7 @@
 
 """Batches whose processes are killed at any moment."""
 
+import json
 import os
 import random
 import signal
@@ -10,6 +11,7 @@ import subprocess
 import time
 
 import pytest
+from framelet.operators.command_line import main
 
 from .conftest import obj, rows_of, run, start, state_of
 
@@ -48,6 +50,39 @@ def test_killed_at_random_moments(tmp_path):
         assert state_of(out) == whole
         assert sorted(p.name for p in out.iterdir() if p.name.startswith(".framelet")) == []
     assert n_cut_off  # in the middle of the work
+
+
+def test_a_power_cut_finds_rows_of_what_is_on_the_disk_only(scans, tmp_path, monkeypatch):
+    """Each result is on the disk before it has its name, and has its name there before it has a row."""
+    out = tmp_path / "out"
+    synced, written, events = set(), {}, []
+    fsync, replace, write = os.fsync, os.replace, os.write
+
+    def watched_fsync(number):
+        fsync(number)
+        synced.add(os.fstat(number).st_ino)
+
+    def watched_replace(source, target):
+        assert os.stat(source).st_ino in synced, f"{source} may not be on the disk"
+        replace(source, target)
+        synced.discard(os.stat(os.path.dirname(target)).st_ino)
+        events.append(os.path.relpath(target, out))
+
+    def watched_write(number, data):
+        text = bytes(data)
+        if text.startswith(b"{") and b'"output"' in text:
+            name = json.loads(text)["output"]
+            assert name in events and os.stat((out / name).parent).st_ino in synced
+            assert all(number in synced for number in written.values())
+            written[name] = os.fstat(number).st_ino
+            synced.discard(written[name])
+        return write(number, data)
+
+    for name, function in (("fsync", watched_fsync), ("replace", watched_replace), ("write", watched_write)):
+        monkeypatch.setattr(os, name, function)
+    assert main(["batch", str(scans), "--out", str(out), "--preset", "tri-2"]) == 0
+    assert sorted(written) == sorted(events) and len(events) == 6
+    assert all(number in synced for number in written.values())
 
 
 def test_a_result_whose_row_was_not_written_is_its_own(scans, tmp_path):
