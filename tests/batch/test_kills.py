@@ -15,7 +15,7 @@ from framelet.operators.command_line import main
 
 from .conftest import obj, rows_of, run, start, state_of
 
-KILLS = int(os.environ.get("FRAMELET_KILLS", "4"))
+KILLS = int(os.environ.get("FRAMELET_KILLS", "20"))
 
 pytestmark = pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="this system has no SIGKILL")
 
@@ -97,6 +97,18 @@ def test_a_result_whose_row_was_not_written_is_its_own(scans, tmp_path):
     run("batch", scans, "--out", out)
     assert state_of(out) == whole
     assert not (out / "report.jsonl.begun").exists()
+
+
+def test_a_result_of_a_slice_that_was_killed_before_its_row_is_known_to_the_whole(scans, tmp_path):
+    out, words = tmp_path / "out", (str(scans), "--preset", "tri-2")
+    assert main(["batch", *words, "--out", str(out), "--slice", "1/2"]) == 0
+    report = out / "report-1-of-2.jsonl"
+    lines = report.read_bytes().splitlines(keepends=True)
+    name = json.loads(lines[-1])["output"]
+    report.write_bytes(b"".join(lines[:-1]))
+    (out / "report-1-of-2.jsonl.begun").write_text("\n" + json.dumps(name))
+    assert main(["batch", *words, "--out", str(out)]) == 0
+    assert len(rows_of(out / "report.jsonl")) == 6 - len(lines) + 1
 
 
 def test_interrupted_from_the_keyboard(tmp_path):
