@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
-from .handing_out import Farm, FarmError
+from .dispatch import Farm, FarmError
 
 PATIENCE = 30
 """Seconds to wait for the scheduler."""

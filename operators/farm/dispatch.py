@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Files are handed out to workers of Dask, and tried again if their process dies.
+"""Files are given to workers of Dask, and tried again if their process dies.
 
 Dask carries jobs and rows; which worker gets which file is decided here. Left to itself, Dask lets jobs wait
 in a process, and counts its death against each of them; a file is to blame only if it was begun there.
@@ -38,7 +38,7 @@ _NAP = 0.003
 """Seconds from one look for a result to the next."""
 
 _PACKAGE = "framelet"
-_HERE = "operators.farm.handing_out"
+_HERE = "operators.farm.dispatch"
 
 
 class FarmError(FrameletError):
@@ -46,8 +46,8 @@ class FarmError(FrameletError):
 
 
 @dataclass
-class _Handed:
-    """A job, and what became of the processes that it was handed to."""
+class _Dispatched:
+    """A job, and what became of the processes that it was given to."""
 
     job: dict[str, Any]
     future: Any = None
@@ -98,61 +98,61 @@ class Farm:
         # Keys of their own: what an earlier batch did on this scheduler is not what is asked for. And each in
         # a group of its own, of which Dask keeps none back.
         run, numbers = f"{_PACKAGE}-{uuid4().hex}", count()
-        waiting = deque(_Handed(job) for job in jobs)
-        at_work: dict[Any, _Handed] = {}
+        waiting = deque(_Dispatched(job) for job in jobs)
+        at_work: dict[Any, _Dispatched] = {}
         begun: set[str] = set()
         # With results, which are fetched meanwhile.
         ended = as_completed(loop=self.client.loop, with_results=True, raise_errors=False)
         self.client.subscribe_topic(run, lambda event: begun.add(event[1]))
         workers = _Workers(self.client)
 
-        def hand_out() -> None:
-            for worker in workers.addresses - {handed.worker for handed in at_work.values()}:
+        def dispatch() -> None:
+            for worker in workers.addresses - {each.worker for each in at_work.values()}:
                 if not waiting:
                     break
-                handed, name = waiting.popleft(), f"{run}-{next(numbers)}"
-                handed.worker, handed.future = worker, self.client.submit(
-                    _named(f"{_HERE}:begin"), function, handed.job, run, name,
+                each, name = waiting.popleft(), f"{run}-{next(numbers)}"
+                each.worker, each.future = worker, self.client.submit(
+                    _named(f"{_HERE}:begin"), function, each.job, run, name,
                     key=(name, 0), workers=[worker], allow_other_workers=False, pure=False,
                 )  # fmt: skip
-                at_work[handed.future.key] = handed
-                ended.add(handed.future)
+                at_work[each.future.key] = each
+                ended.add(each.future)
 
-        def lost(handed: _Handed) -> dict[str, Any] | None:
+        def lost(each: _Dispatched) -> dict[str, Any] | None:
             """Put a job back whose process is gone; or return its row, if it has had its tries."""
-            key = handed.future.key
+            key = each.future.key
             del at_work[key]
-            self.client.cancel([handed.future])
-            handed.n_deaths += key[0] in begun
-            handed.n_losses += key[0] not in begun
-            if handed.n_deaths == TRIES or handed.n_losses == LOSSES:
-                return _row_of_dead(handed)
+            self.client.cancel([each.future])
+            each.n_deaths += key[0] in begun
+            each.n_losses += key[0] not in begun
+            if each.n_deaths == TRIES or each.n_losses == LOSSES:
+                return _row_of_dead(each)
             # At the end, when others are not held up by it.
-            waiting.append(handed)
+            waiting.append(each)
             return None
 
         try:
-            hand_out()
+            dispatch()
             while at_work or waiting:
                 if not ended.has_ready():
                     sleep(_NAP)
                     if workers.looked_again():
-                        for handed in list(at_work.values()):
-                            if handed.worker not in workers.addresses and (row := lost(handed)):
-                                yield handed.job, row
-                        hand_out()
+                        for each in list(at_work.values()):
+                            if each.worker not in workers.addresses and (row := lost(each)):
+                                yield each.job, row
+                        dispatch()
                     continue
                 future, result = next(ended)
                 if future.key not in at_work:
                     continue  # of a process that was given up
-                handed = at_work[future.key]
-                row = lost(handed) if _is_killed(future) else _row(future, result, handed.job)
+                each = at_work[future.key]
+                row = lost(each) if _is_killed(future) else _row(future, result, each.job)
                 at_work.pop(future.key, None)
-                hand_out()
+                dispatch()
                 if row is not None:
-                    yield handed.job, row
+                    yield each.job, row
         finally:
-            self.client.cancel([handed.future for handed in at_work.values()])
+            self.client.cancel([each.future for each in at_work.values()])
             self.client.unsubscribe_topic(run)
 
 
@@ -231,9 +231,9 @@ def _is_killed(future: Any) -> bool:
     return future.status == "error" and isinstance(future.exception(), KilledWorker)
 
 
-def _row_of_dead(handed: _Handed) -> dict[str, Any]:
-    source = handed.job["source"]
-    if handed.n_deaths == TRIES:
+def _row_of_dead(each: _Dispatched) -> dict[str, Any]:
+    source = each.job["source"]
+    if each.n_deaths == TRIES:
         return {
             "error": f"The process that worked on {source} died, {TRIES} times; the file may be damaged, or "
             "need more memory than there is."
