@@ -110,5 +110,5 @@ def of_scheduler(address: str) -> Iterator[Farm]:
 
 def _silence() -> None:
     """Keep Dask's log off the terminal."""
-    for name in ("distributed", "tornado.application", "asyncio"):
+    for name in ("distributed", "distributed.client", "tornado.application", "asyncio"):
         logging.getLogger(name).setLevel(logging.CRITICAL)
