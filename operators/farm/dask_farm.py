@@ -52,6 +52,8 @@ def on_this_computer(n_processes: int, environment: dict[str, str]) -> Iterator[
         "distributed.deploy.lost-worker-timeout": "1h",
         "distributed.comm.timeouts.connect": "300s",
         "distributed.comm.timeouts.tcp": "300s",
+        # Looks at the work a hundred times a second, for a page that nobody opens.
+        "distributed.worker.profile.enabled": False,
     }
     with ExitStack() as stack:
         try:
