@@ -102,7 +102,7 @@ def test_a_scheduler_that_is_lost_ends_the_run_with_a_sentence(farm, tmp_path):
     )
     n_rows = len(rows_of(out / "report.jsonl"))
     assert 0 < n_rows < 12
-    run("batch", scans, "--out", out)
+    assert main(["batch", str(scans), "--out", str(out)]) == 0
     assert len(rows_of(out / "report.jsonl")) == 12
 
 
