@@ -10,6 +10,8 @@ from collections.abc import Iterable
 from contextlib import suppress
 from pathlib import Path
 
+from ..files.safe_write import sync_folder
+
 
 class Begun:
     """Names that are on the disk before the first of them is written, so that a run that is killed between a
@@ -40,6 +42,7 @@ class Begun:
             file.write(lines.encode("ascii"))
             file.flush()
             os.fsync(file.fileno())
+        sync_folder(self._path.parent)
 
     def forget(self) -> None:
         """Remove the names: rows say the same now."""

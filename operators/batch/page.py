@@ -17,14 +17,16 @@ _STYLE = """
 body { font: 15px/1.45 system-ui, sans-serif; margin: 2rem auto; max-width: 72rem; padding: 0 1rem;
   color: #222; background: #fff }
 article { display: flex; flex-wrap: wrap; gap: 1rem; border-top: 1px solid #ddd; padding: 1rem 0 }
+.pictures { display: flex; gap: 1rem; max-width: 100% }
 figure { margin: 0; text-align: center; color: #666; font-size: 13px }
-figure img { display: block; width: 240px; height: 240px; border: 1px solid #eee }
+figure img { display: block; width: 240px; max-width: 100%; border: 1px solid #eee; box-sizing: border-box }
 h2 { font-size: 1rem; margin: 0 0 .3rem; overflow-wrap: anywhere }
-.text { flex: 1; min-width: 18rem }
-.failed h2 { color: #b00020 }
-.why { color: #b00020; margin: .2rem 0; overflow-wrap: anywhere }
-table { border-collapse: collapse; font-size: 14px } td { padding: .05rem 1rem .05rem 0; vertical-align: top }
-td:first-child { color: #666 }
+.text { flex: 1; min-width: min(18rem, 100%) }
+.why { color: #8a5300; margin: .2rem 0; overflow-wrap: anywhere }
+.failed h2, .failed .why { color: #b00020 }
+table { border-collapse: collapse; font-size: 14px }
+td { padding: .05rem 1rem .05rem 0; vertical-align: top; overflow-wrap: anywhere }
+td:first-child { color: #666; white-space: nowrap } td:last-child { padding-right: 0 }
 """
 
 Pictures = Callable[[dict[str, Any]], tuple[bytes, bytes] | None]
@@ -75,6 +77,8 @@ def _article(row: dict[str, Any], look: Look, drawn: tuple[bytes, bytes] | None)
             f'<figure><img alt="{caption}" src="data:image/png;base64,{source}">'
             f"<figcaption>{caption}</figcaption></figure>"
         )
+    if figures:
+        figures = f'<div class="pictures">{figures}</div>'
     why = "".join(f'<p class="why">{_text(reason)}</p>' for reason in look.reasons)
     cells = "".join(f"<tr><td>{name}</td><td>{_text(value)}</td></tr>" for name, value in _facts(row))
     kind = "done" if row["status"] == DONE else "failed"

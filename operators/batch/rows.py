@@ -11,6 +11,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
+from ..files.safe_write import sync_folder
 from .inputs import PlanError, ReportError
 from .task import Task, hash_of
 
@@ -34,6 +35,7 @@ class RowFile:
         except OSError as error:
             raise ReportError(path, error) from error
         self._mend()
+        sync_folder(path.parent)
 
     def _mend(self) -> None:
         """End a line that a run left unfinished when it was killed: the next row is one of its own."""

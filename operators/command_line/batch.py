@@ -71,7 +71,8 @@ def run(arguments: argparse.Namespace) -> None:
             rows = read_rows(path for path in reports if path.exists())
             undone = left_to_do(tasks, rows, arguments)
             begun = Begun(reports[0])
-            undone = [without_foreign(task, rows, begun.names(), arguments) for task in undone]
+            names = {name for report in reports for name in Begun(report).names()}
+            undone = [without_foreign(task, rows, names, arguments) for task in undone]
             begun.add(task.name for task in undone if not task.error and not os.path.lexists(task.target))
             folders = {Path(task.target).parent for task in tasks}
             for folder in folders:

@@ -240,7 +240,7 @@ class Outputs:
                     ) from error
                 done.append(move.target)
             for folder in {move.place.parent for move in self._moves}:
-                _sync_folder(folder)
+                sync_folder(folder)
             for target, data in self._direct:
                 try:
                     with target.open("wb") as file:
@@ -340,7 +340,7 @@ def _take_over_mode(move: _Move) -> None:
             os.chown(move.source, old.st_uid, old.st_gid)
 
 
-def _sync_folder(folder: Path) -> None:
+def sync_folder(folder: Path) -> None:
     """Put a folder's names onto the disk, where the system can."""
     with suppress(OSError):
         number = os.open(folder, os.O_RDONLY)

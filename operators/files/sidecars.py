@@ -102,7 +102,8 @@ def _new_names(buffers: Mapping[str, bytes], source: Path, target: Path) -> dict
     for number, (uri, content) in enumerate(buffers.items(), 1):
         place = target.parent / unquote(uri)
         own = target.stem if len(buffers) == 1 else f"{target.stem}-{number}"
-        if _belongs(place, source, target, uri) or _can_be(place, content, source, uri):
+        keeps = not _leaves(unquote(uri)) or _is_same(source, target)
+        if keeps and (_belongs(place, source, target, uri) or _can_be(place, content, source, uri)):
             names[uri] = uri
             continue
         new = quote(own + (Path(unquote(uri)).suffix or ".bin"))
@@ -113,6 +114,20 @@ def _new_names(buffers: Mapping[str, bytes], source: Path, target: Path) -> dict
             )
         names[uri] = new
     return names
+
+
+def _leaves(name: str) -> bool:
+    """Return whether a reference may lead out of the folder of its file: nothing is written there."""
+    path = Path(name.replace("\\", "/"))
+    return path.is_absolute() or bool(path.drive) or ".." in path.parts
+
+
+def _is_same(source: Path, target: Path) -> bool:
+    """Return whether a file is replaced by its own copy."""
+    try:
+        return source.samefile(target)
+    except OSError:
+        return False
 
 
 def _belongs(place: Path, source: Path, target: Path, uri: str) -> bool:
@@ -145,7 +160,7 @@ def _can_be(place: Path, content: bytes, source: Path, uri: str) -> bool:
 def _copy(name: str, source: Path, target: Path, outputs: Outputs, own: Mapping[str, str]) -> list[str]:
     """Copy a file that is referred to by a relative path; return what is to be said."""
     path = Path(name.replace("\\", "/"))
-    if path.is_absolute() or ".." in path.parts or not name:
+    if _leaves(name) or not name:
         return [] if path.is_absolute() else [f"{target} refers to {name}, which was not copied."]
     old, new = source.parent / path, target.parent / path
     try:

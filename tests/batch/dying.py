@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a worker does in tests in place of denoising: some jobs end its process, one of them once only."""
+"""What a worker does in tests in place of denoising: some jobs end its process, some of them once only."""
 
 import os
 import time
@@ -12,10 +12,11 @@ def carry_out(job):
     log = Path(job["log"])
     with log.open("a") as file:
         file.write(job["source"] + "\n")
+    kind = job["source"].partition("-")[0]
     begun = log.read_text().split().count(job["source"])
-    if job["source"] == "killer" or (job["source"] == "once" and begun == 1):
-        time.sleep(0.3)  # so that others wait behind it, if any do
+    if kind == "killer" or (kind == "once" and begun == 1):
+        time.sleep(job.get("seconds", 0.3))  # so that others wait behind it, if any do
         os._exit(9)
-    if job["source"] == "broken":
+    if kind == "broken":
         raise RuntimeError("no such thing")
     return {"did": job["source"], "pid": os.getpid()}

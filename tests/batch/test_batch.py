@@ -7,6 +7,7 @@ import hashlib
 import io
 import json
 import os
+import re
 import sys
 
 import pytest
@@ -245,7 +246,7 @@ def test_quiet_and_verbose(scans, tmp_path):
     out, err = run("batch", scans, "--out", tmp_path / "a", "--quiet", *QUICK)
     assert (out, err) == ("", "")
     out, _err = run("batch", scans, "--out", tmp_path / "b", "--verbose", *QUICK)
-    assert out.count("denoise 0.") == 6
+    assert len(re.findall(r"^  .*denoise \d+\.\d\d s", out, re.MULTILINE)) == 6
     assert not list((tmp_path / "a").glob("*.begun"))
 
 
@@ -296,6 +297,26 @@ def test_a_buffer_that_a_killed_run_left_is_its_own(tmp_path):
     (out / buffers[0]).write_bytes(b"cut")
     assert batch(source, "--out", out, *QUICK) == 0
     assert (out / buffers[0]).read_bytes() == whole[buffers[0]] and len(rows_of(report)) == 2
+
+
+@pytest.mark.parametrize("place", ["../../sheet.bin", "%2e%2e/%2E%2E/sheet.bin", "absolute"])
+def test_a_buffer_is_never_written_outside_the_folder(tmp_path, place):
+    source = tmp_path / "in" / "deep" / "scan.gltf"
+    source.parent.mkdir(parents=True)
+    text, buffer = full_gltf("separate")
+    (tmp_path / "sheet.bin").write_bytes(buffer)
+    uri = str(tmp_path / "sheet.bin") if place == "absolute" else place
+    source.write_bytes(text.replace(b"sheet%20data.bin", uri.encode()))
+    out = tmp_path / "far" / "away" / "out"
+    assert batch(source, "--out", out, *QUICK) == 0
+    assert (tmp_path / "sheet.bin").read_bytes() == buffer
+    assert sorted(path.name for path in (tmp_path / "far").rglob("*.*")) == [
+        "report.jsonl", "report.jsonl.lock", "scan.bin", "scan.gltf",
+    ]  # fmt: skip
+    assert all(path.is_relative_to(out) for path in (tmp_path / "far").rglob("*.*"))
+    (row,) = rows_of(out / "report.jsonl")
+    assert row["n_moved"] and len(row["beside_output"]) == 1
+    assert batch(source, "--out", out, *QUICK) == 0 and len(rows_of(out / "report.jsonl")) == 1
 
 
 def test_defects_have_kinds_and_numbers(scans, tmp_path):

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from framelet.operators.command_line import main
 
-from .conftest import obj, rows_of, run, state_of
+from .conftest import obj, rows_of, run, start, state_of
 
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = "import sys; from framelet.operators.command_line import main; sys.exit(main())"
@@ -84,6 +84,26 @@ def test_two_workers_one_killed(farm, tmp_path):
     assert [row["output"] for row in rows if row["status"] == "failed"] == ["bad.obj"]
     run("batch", scans, "--out", tmp_path / "here", code=1)
     assert state_of(out) == state_of(tmp_path / "here")
+
+
+def test_a_scheduler_that_is_lost_ends_the_run_with_a_sentence(farm, tmp_path):
+    address, (scheduler, *_workers) = farm
+    scans, out = tmp_path / "scans", tmp_path / "out"
+    scans.mkdir()
+    for number in range(12):
+        (scans / f"{number}.obj").write_text(obj(number, 30))
+    process = start("batch", scans, "--out", out, "--scheduler", address)
+    process.stdout.readline()
+    scheduler.kill()
+    _out, err = process.communicate(timeout=600)
+    assert process.returncode == 1, err
+    assert (
+        "The scheduler was lost; start it and give the same command again" in err and "Traceback" not in err
+    )
+    n_rows = len(rows_of(out / "report.jsonl"))
+    assert 0 < n_rows < 12
+    assert main(["batch", str(scans), "--out", str(out)]) == 0
+    assert len(rows_of(out / "report.jsonl")) == 12
 
 
 def test_a_scheduler_that_does_not_answer(farm, scans, tmp_path, monkeypatch, capsys):

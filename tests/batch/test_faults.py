@@ -80,7 +80,7 @@ def test_a_folder_that_becomes_read_only(scans, disk):
 def test_inputs_that_vanish(scans, tmp_path):
     for number in range(4, 9):
         (scans / f"{number}.obj").write_text(obj(number, 60))
-    process = start("batch", scans, "--out", tmp_path / "out", "--jobs", "1")
+    process = start("batch", scans, "--out", tmp_path / "out")
     process.stdout.readline()
     (scans / "left" / "1.obj").unlink()
     _, err = process.communicate(timeout=120)

@@ -9,8 +9,9 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from framelet.operators.command_line import main
 
-from .conftest import rows_of, run
+from .conftest import rows_of
 
 SCRIPT = Path(__file__).resolve().parents[2] / "operators" / "farm" / "framelet_denoise.js"
 START = ["--background", "--python-exit-code", "1", "-c", "framelet"]
@@ -84,7 +85,7 @@ def test_the_commands_are_understood(compiled, scans, tmp_path):
     for task in (*job["tasks"], job["tasks"][0]):  # a farm may do a task twice
         words = task["commands"][0]["parameters"]["args"]
         assert words[: len(START)] == START
-        run(*words[len(START) :])
+        assert main(words[len(START) :]) == 0
     assert len(rows_of(out / "report-1-of-2.jsonl")) == len(rows_of(out / "report-2-of-2.jsonl")) == 3
     assert len(list(out.glob("*.obj"))) == 6
     assert (out / "report.html").read_text().count("<article") == 6

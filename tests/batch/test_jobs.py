@@ -11,6 +11,8 @@ from pathlib import Path
 
 import pytest
 from framelet.operators.command_line import main
+from framelet.operators.farm.dask_farm import on_this_computer
+from framelet.tests.batch import dying
 
 from .conftest import obj, rows_of, run, start, state_of
 
@@ -43,22 +45,46 @@ def test_jobs_give_the_same(scans, tmp_path):
 
 
 def test_a_process_that_dies_takes_only_its_file_along(tmp_path):
-    from framelet.operators.farm.dask_farm import on_this_computer
-
     log = tmp_path / "log"
-    names = ["killer", *"abcdef", "broken", *"ghi", "once"]
+    killers, onces = ["killer-1", "killer-2"], ["once-1", "once-2"]
+    # Killers beside each other and one after the other, so that a file that is tried again meets others.
+    names = ["killer-1", "killer-2", *"abcdef", "broken", "once-1", *"ghi", "once-2"]
     jobs = [{"source": name, "log": str(log)} for name in names]
     with on_this_computer(2, {}) as farm:
         found = [(job["source"], row) for job, row in farm.results(jobs, "tests.batch.dying:carry_out")]
     assert sorted(name for name, _row in found) == sorted(names)
     rows, begun = dict(found), log.read_text().split()
-    # Dask also counts the death of a process at which it waits for its second try.
-    assert "killer died, 2 times" in rows["killer"]["error"] and begun.count("killer") in (1, 2)
+    assert {name: begun.count(name) for name in names} == {
+        name: 2 if name in (*killers, *onces) else 1 for name in names
+    }
+    assert all(f"{name} died, 2 times" in rows[name]["error"] for name in killers)
     assert "broken could not be worked on: RuntimeError: no such thing." in rows["broken"]["error"]
-    assert begun.count("once") == 2
-    others = set(names) - {"killer", "broken"}
+    others = set(names) - {*killers, "broken"}
     assert all(rows[name]["did"] == name for name in others)
     assert os.getpid() not in {rows[name]["pid"] for name in others}
+
+
+@pytest.mark.parametrize("others", [("once-1", "once-2"), ("killer",)])
+def test_a_file_that_waits_for_others_is_not_to_blame_for_deaths(tmp_path, others):
+    log = str(tmp_path / "log")
+    with on_this_computer(1, {}) as farm:
+        # Another batch on this scheduler takes the only process along, two times or four.
+        futures = [
+            farm.client.submit(dying.carry_out, {"source": name, "log": log, "seconds": 2}, pure=False)
+            for name in others
+        ]
+        ((_job, row),) = farm.results([{"source": "a", "log": log}], "tests.batch.dying:carry_out")
+        assert [future.exception() is None for future in futures] == [others != ("killer",)] * len(others)
+    begun = Path(log).read_text().split()
+    if others == ("killer",):
+        assert row == {
+            "error": "4 processes that a was handed to died before they began it; see what the workers of "
+            "Dask say."
+        }
+        assert begun == ["killer"] * 4
+    else:
+        assert row["did"] == "a"
+        assert begun.count("a") == 1 and begun.count("once-2") == 2
 
 
 @needs_proc

@@ -5,12 +5,14 @@
     python3 .ci/environment.py run core -- tests/benchmarks/batch/run.py
 
 Each way is one run of the command line; with Dask the start of its processes is counted by itself. The load
-says how busy the computer was: with more than one for each core the figures say little.
+says how busy the computer was: with more than one for each core the times say little. Processor time, of all
+processes together, is the same on a busy computer; a run of few files takes away what the start takes.
 """
 
 import argparse
 import json
 import os
+import resource
 import subprocess
 import sys
 import tempfile
@@ -32,28 +34,36 @@ def main():
     parser.add_argument("--side", type=int, default=32, help="vertices along each side of a mesh")
     parser.add_argument("--preset", default="auto")
     arguments = parser.parse_args()
-    print("| | Start | A file | Its work | Beyond, for each process | Load |\n|---|---|---|---|---|---|")
+    print("| | Start | A file | Its work | Beyond, for each process | Processor time of a file | Load |")
+    print("|---" * 7 + "|")
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         (folder / "framelet").symlink_to(ROOT)
         (folder / "scans").mkdir()
+        few = max(2, arguments.files // 20)
         for number in range(arguments.files):
             write_sheet(folder / "scans" / f"{number}.obj", arguments.side, number)
         for way, words in WAYS.items():
-            n_jobs = int(words[1]) if words else 1
-            start, each, work = measure(folder, way.replace(" ", "_"), words, arguments.preset)
+            n_jobs, name = int(words[1]) if words else 1, way.replace(" ", "_")
+            *_times, at_start = measure(
+                folder, f"few_{name}", (*words, "--limit", str(few)), arguments.preset
+            )
+            start, each, work, processor = measure(folder, name, words, arguments.preset)
+            processor = (processor - at_start) / (arguments.files - few)
             print(
                 f"| {way} | {start:.1f} s | {1e3 * each:.0f} ms | {1e3 * work:.0f} ms | "
-                f"{1e3 * (n_jobs * each - work):.0f} ms | {os.getloadavg()[0]:.1f} |",
+                f"{1e3 * (n_jobs * each - work):.0f} ms | {1e3 * processor:.0f} ms | "
+                f"{os.getloadavg()[0]:.1f} |",
                 flush=True,
             )
 
 
 def measure(folder, name, words, preset):
-    """Return seconds until the first file was done, from one to the next, and of the work on one."""
+    """Return seconds until the first file was done, from one to the next, and of the work on one, and of
+    processor time of all processes together."""
     environment = os.environ | {"PYTHONPATH": str(folder), "OPENBLAS_NUM_THREADS": "1"}
     command = [sys.executable, "-c", PROGRAM, "batch", str(folder / "scans"), "--out", str(folder / name)]
-    began = time.time()
+    began, before = time.time(), processor_seconds()
     subprocess.run(
         [*command, "--quiet", "--preset", preset, *words], env=environment, check=True, timeout=TIMEOUT
     )
@@ -62,7 +72,13 @@ def measure(folder, name, words, preset):
     each = (ended[-1] - ended[0]) / (len(ended) - 1)
     # The first file of each process loads the program.
     work = float(np.median([sum(row["seconds"].values()) for row in rows]))
-    return ended[0] - began, each, work
+    return ended[0] - began, each, work, processor_seconds() - before
+
+
+def processor_seconds():
+    """Return the processor time of all processes that ended below this one."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def write_sheet(path, side, seed):

@@ -18,4 +18,4 @@ def test_small_run():
     assert result.returncode == 0, result.stderr
     rows = [line for line in result.stdout.splitlines() if line.startswith("| ")][1:]
     assert [row.split(" | ")[0] for row in rows] == ["| one after the other", "| --jobs 1", "| --jobs 2"]
-    assert all(row.count(" ms ") == 3 for row in rows)
+    assert all(row.count(" ms ") == 4 for row in rows)

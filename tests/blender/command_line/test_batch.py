@@ -45,3 +45,20 @@ def test_blend_files_among_others(grid, write_obj, tmp_path):
     # Only what failed is done once more.
     assert main(["batch", str(scans), "--out", str(out), "--preset", "tri-2"]) == 1
     assert len((out / "report.jsonl").read_text().splitlines()) == 6
+
+
+def test_scripts_in_files_do_not_run(grid, tmp_path):
+    """Neither when a batch opens them nor when it writes them; that they would run is seen first."""
+    scans, out, ran = tmp_path / "scans", tmp_path / "out", tmp_path / "ran"
+    scans.mkdir()
+    save_blend(scans / "scan.blend", grid.used_vertices, grid.faces_of_used)
+    text = bpy.data.texts.new("start.py")
+    text.write(f"open({str(ran)!r}, 'w').close()")
+    text.use_module = True  # run when the file is opened
+    bpy.ops.wm.save_as_mainfile(filepath=str(scans / "scan.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(scans / "scan.blend"), use_scripts=True)
+    assert ran.exists()
+    ran.unlink()
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    assert main(["batch", str(scans), "--out", str(out), "--preset", "tri-2"]) == 0
+    assert (out / "scan.blend").exists() and not ran.exists()
