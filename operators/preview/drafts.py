@@ -31,9 +31,14 @@ def draft_of(settings: DenoiseSettings) -> DenoiseSettings | None:
 
 
 def compute_pictures(
-    job: DenoiseJob, compute: Compute, show: Callable[[Picture], None], note: Callable[[float], None]
+    job: DenoiseJob,
+    compute: Compute,
+    show: Callable[[Picture], None],
+    note: Callable[[float], None],
+    *,
+    with_draft: bool = True,
 ) -> Picture:
-    """Carry out a job, after a draft if there is one.
+    """Carry out a job, after a draft if there is one and it is wanted.
 
     Parameters
     ----------
@@ -45,9 +50,11 @@ def compute_pictures(
         Gets the draft.
     note : callable
         Gets the share of all work that is done, from 0 to 1.
+    with_draft : bool
+        Whether a draft is wanted.
     """
     note(0.0)
-    draft, start = draft_of(job.settings), 0.0
+    draft, start = draft_of(job.settings) if with_draft else None, 0.0
     if draft is not None:
         start = 1.0 / (1 + job.settings.passes)
         show(Picture(compute(replace(job, settings=draft), _between(note, 0.0, start)), is_final=False))

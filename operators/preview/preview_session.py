@@ -25,8 +25,7 @@ from ..run.denoise_run import Written
 from ..run.output import refusal
 from ..run.run_guard import find_mesh, find_object, mark_of, what_changed
 from ..shortage import reserve_for_writing, shortage_told
-from .drafts import Picture, compute_pictures
-from .latest import Latest
+from .picture_source import PictureSource, Shown
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -57,8 +56,6 @@ class PreviewSession:
         What the object is recognized by.
     message : str
         One sentence if there is nothing to show with these settings, or on why the preview ended.
-    fraction : float
-        How much of what is being computed is done, from 0 to 1.
     """
 
     def __init__(self, obj: bpy.types.Object, job: DenoiseJob, options: RegionOptions) -> None:
@@ -76,8 +73,7 @@ class PreviewSession:
         self._result: NDArray[np.float32] | None = None
         self._inputs: dict[str, object] = {}
         kept_original.keep(obj.data, self._original, self._shown)
-        self.fraction = 0.0
-        self._latest: Latest[DenoiseJob, Picture] = Latest(self._compute)
+        self._source = PictureSource(_computed)
 
     @property
     def name(self) -> str:
@@ -93,6 +89,11 @@ class PreviewSession:
     def is_current(self) -> bool:
         """Whether the mesh shows what was asked for last."""
         return self._outcome is not None and self._outcome[0] is self._wanted
+
+    @property
+    def fraction(self) -> float:
+        """How much of what is being computed is done, from 0 to 1."""
+        return self._source.fraction
 
     def find_object(self) -> bpy.types.Object | None:
         """Return the object; None if it is gone."""
@@ -144,19 +145,21 @@ class PreviewSession:
             self._read_again(options)
         if self._result is not None and self._modifier_inputs() != self._inputs:
             self._show(self._result)
-        answer = self._latest.take()
         if not self._is_allowed:
             return True
         if self._wanted is None or settings != self._wanted.settings:
             self._wanted = replace(self._job, settings=settings)
-            self._latest.request(self._wanted)
-        if answer is not None and answer.request.region is self._job.region:
-            self._take(answer.request, answer.result, answer.error)
+            picture = self._source.request(self._wanted)
+            if picture is not None:
+                self._take(Shown(self._wanted, picture, None, None))
+        shown = self._source.take()
+        if shown is not None:
+            self._take(shown)
         return True
 
     def wait(self, seconds: float) -> bool:
         """Wait for what is being computed, at most so long; return whether that is done."""
-        return self._latest.wait(seconds)
+        return self._source.wait(seconds)
 
     def suspend(self) -> None:
         """Give the mesh its original positions until `resume`; for saving files."""
@@ -218,18 +221,18 @@ class PreviewSession:
     @property
     def has_ended(self) -> bool:
         """Whether the thread has ended too."""
-        return self._latest.has_ended
+        return self._source.has_ended
 
     def join(self) -> None:
         """Wait until the thread of a preview that is over has ended."""
-        self._latest.join()
+        self._source.join()
 
     def _close(self, message: str) -> bool:
         """Stop computing; return whether the preview was on."""
         was_on, self.is_on = self.is_on, False
         if was_on:
             self.message = message
-            self._latest.close()
+            self._source.close()
         return was_on
 
     def _read_again(self, options: RegionOptions) -> None:
@@ -237,6 +240,7 @@ class PreviewSession:
         obj = self.find_object()
         assert obj is not None  # `tick` has looked
         self._options, self._wanted = options, None
+        self._source.forget()
         self.suspend()
         try:
             job = read_job(obj, self._job.settings, IN_PLACE, options, from_original=True)
@@ -270,30 +274,16 @@ class PreviewSession:
             )
         return False
 
-    def _compute(
-        self, job: DenoiseJob, should_stop: Callable[[], bool], show: Callable[[Picture], None]
-    ) -> Picture:
-        """Denoise; on the thread."""
-
-        def outcome_of(job: DenoiseJob, callback: Callable[[float, float], bool]) -> DenoiseOutcome:
-            assembly = assemble([job])
-            return assembly.split(compute(assembly.job, callback, should_stop=should_stop))[0]
-
-        def note(fraction: float) -> None:
-            self.fraction = fraction
-
-        with shortage_told(job.name):
-            return compute_pictures(job, outcome_of, show, note)
-
-    def _take(self, job: DenoiseJob, picture: Picture | None, error: Exception | None) -> None:
-        """Show an answer of the thread; with an error, the original and a sentence."""
-        if error is None and picture is not None:
+    def _take(self, shown: Shown) -> None:
+        """Show an answer; with an error, the original and a sentence."""
+        if shown.positions is not None:
             self.message = ""
-            if picture.is_final:
-                self._outcome = job, picture.outcome
-            self._result = mesh_bridge.with_moved(self._job.surface, picture.outcome.vertices)
+            if shown.outcome is not None:
+                self._outcome = shown.job, shown.outcome
+            self._result = shown.positions
             self._show(self._result)
             return
+        error = shown.error
         if not isinstance(error, ValueError):
             traceback.print_exception(error)
         self._outcome = self._result = None
@@ -317,6 +307,15 @@ class PreviewSession:
         kept_original.keep(obj.data, self._original, positions)
         mesh_bridge.show_positions(obj.data, positions)
         self._shown = positions
+
+
+def _computed(
+    job: DenoiseJob, callback: Callable[[float, float], bool], should_stop: Callable[[], bool]
+) -> DenoiseOutcome:
+    """Carry out a job, with mirrored halves; on the thread."""
+    with shortage_told(job.name):
+        assembly = assemble([job])
+        return assembly.split(compute(assembly.job, callback, should_stop=should_stop))[0]
 
 
 def begin_preview(obj: bpy.types.Object, settings: DenoiseSettings, options: RegionOptions) -> PreviewSession:

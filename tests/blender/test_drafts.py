@@ -5,6 +5,7 @@
 import threading
 
 import bpy
+import numpy as np
 import pytest
 from blender_objects import noisy_monkey
 from drawing import draw
@@ -13,6 +14,8 @@ from framelet.operators.mesh_io import mesh_bridge
 from framelet.operators.mesh_io.mesh_bridge import read_positions
 from framelet.operators.preview import current_preview, preview_session
 from framelet.operators.preview.drafts import draft_of
+from framelet.operators.preview.known_results import FARTHEST, KnownResults
+from framelet.operators.run import denoise_job
 from framelet.ui.panels import run_rows
 from run_steps import SECONDS, expected_for, same, settle, turn_on
 
@@ -37,6 +40,29 @@ def steps(monkeypatch):
     yield begun, turns, has_begun
     for _ in range(20):
         turns.release()
+
+
+def test_what_lies_between_known_results():
+    one, auto = np.ones((4, 3), np.float32), DenoiseSettings()
+    known = KnownResults(0 * one)
+    assert known.between(auto) is None and known.farthest(auto) is None
+    known.add(auto, 2 * one)
+    assert (known.between(auto.with_changes(strength=0.5)) == 1).all()
+    assert (known.between(auto.with_changes(strength=0.0)) == 0).all()
+    assert (known.between(auto) == 2).all()
+    assert known.between(auto.with_changes(strength=1.1)) is None  # nothing is known that is as strong
+    assert (known.between(auto.with_changes(threads=3)) == 2).all()
+    known.add(known.farthest(auto), 4 * one)
+    assert (known.between(auto.with_changes(strength=1.5)) == 3).all() and known.farthest(auto) is None
+    known.add(auto.with_changes(strength=1.4), 2 * one)
+    assert (known.between(auto.with_changes(strength=1.2)) == 2).all()
+    assert known.between(auto.with_changes(passes=3)) is None
+    known.add(auto.with_changes(passes=3), 9 * one)
+    assert known.between(auto) is None
+    quick = PRESETS["TRI_2"].settings
+    known.add(quick, one)
+    assert known.between(quick) is None  # its result is there as soon
+    assert (known.between(auto.with_changes(passes=3)) == 9).all()
 
 
 @pytest.mark.parametrize("preset", list(PRESETS))
@@ -65,7 +91,7 @@ def test_the_draft_comes_first_and_is_no_result(settings, steps):
     turns.release()
     settle(session)
     assert session.is_current and same(read_positions(obj.data), expected_for(surface, settings))
-    assert begun[1:] == [DenoiseSettings()]
+    assert begun[1] == DenoiseSettings()
 
 
 def test_a_bar_takes_the_place_of_apply(settings, steps):
@@ -87,18 +113,109 @@ def test_a_bar_takes_the_place_of_apply(settings, steps):
     assert session.name == "Bust" and session.fraction == 1.0
 
 
-def test_the_sidebar_is_drawn_again_as_the_work_goes_on(settings, steps, monkeypatch):
-    _, _, has_begun = steps
+def test_the_sidebar_is_drawn_again_as_the_work_goes_on(settings, monkeypatch):
+    told, goes_on = threading.Event(), threading.Semaphore(0)
+
+    def told_slowly(job, callback=None, should_stop=None):
+        for fraction in (0.0, 0.9):
+            callback(fraction, 0.0)
+            told.set()
+            while not goes_on.acquire(timeout=0.005):
+                if should_stop():
+                    break
+        return denoise_job.compute(job, callback, should_stop)
+
+    monkeypatch.setattr(preview_session, "compute", told_slowly)
     noisy_monkey()
     settings.preset = "AUTO"
     session = turn_on()
-    assert has_begun.acquire(timeout=SECONDS)
+    assert told.wait(SECONDS)
     current_preview.tick_preview()
     drawn = []
     monkeypatch.setattr(current_preview, "redraw_sidebars", lambda: drawn.append(session.fraction))
     current_preview.tick_preview()
     assert drawn == []
-    session.fraction = 0.5
+    told.clear()
+    goes_on.release()
+    assert told.wait(SECONDS)
     current_preview.tick_preview()
     current_preview.tick_preview()
-    assert drawn == [0.5]
+    assert drawn == [pytest.approx(0.9 / 3)]
+
+
+def test_between_known_results_there_is_a_picture_at_once(settings, steps):
+    begun, turns, has_begun = steps
+    obj = noisy_monkey()
+    surface = mesh_bridge.read_surface(obj)
+    settings.preset = "AUTO"
+    session = turn_on()
+    for _ in range(2):
+        turns.release()
+    settle(session)
+    for _ in range(2):
+        has_begun.acquire()
+    strong = read_positions(obj.data)
+    turns.release()  # what nobody has asked for yet: the end of the slider
+    assert has_begun.acquire(timeout=SECONDS) and session.wait(SECONDS)
+    assert begun[2] == DenoiseSettings(strength=FARTHEST, threads=1)
+    current_preview.tick_preview()
+    assert session.is_current and same(read_positions(obj.data), strong)  # nobody sees that
+
+    settings.strength = 0.25
+    current_preview.tick_preview()  # nothing has been computed
+    half_way = surface.vertices + (strong - surface.vertices) / 4
+    assert np.allclose(read_positions(obj.data), half_way, atol=1e-6) and not session.is_current
+    settings.strength = 1.5
+    current_preview.tick_preview()
+    farthest = denoise(surface, begun[2]).vertices
+    assert np.allclose(read_positions(obj.data), (strong + farthest) / 2, atol=1e-6)
+    for _ in range(4):
+        turns.release()
+    settle(session)
+    assert session.is_current and same(read_positions(obj.data), expected_for(surface, settings))
+    assert all(each.passes == 2 for each in begun[2:])  # no draft where there is a picture
+
+
+def test_an_answer_to_an_older_value_does_not_take_the_picture_away(settings, steps):
+    _, turns, has_begun = steps
+    obj = noisy_monkey()
+    settings.preset = "AUTO"
+    session = turn_on()
+    for _ in range(3):
+        turns.release()
+    settle(session)
+    assert session.wait(SECONDS)  # for the end of the slider
+    settings.strength = 0.5
+    current_preview.tick_preview()
+    for _ in range(4):
+        assert has_begun.acquire(timeout=SECONDS)  # that of 0.5 has begun
+    settings.strength = 0.2
+    current_preview.tick_preview()
+    shown = read_positions(obj.data)
+    turns.release()
+    assert has_begun.acquire(timeout=SECONDS)  # that of 0.5 is done, that of 0.2 has begun
+    current_preview.tick_preview()
+    assert same(read_positions(obj.data), shown)
+
+
+def test_other_settings_or_another_region_know_nothing(settings, steps):
+    begun, turns, has_begun = steps
+    obj = noisy_monkey()
+    settings.preset = "AUTO"
+    session = turn_on()
+    for _ in range(3):
+        turns.release()
+    settle(session)
+    session.wait(SECONDS)
+    before = read_positions(obj.data)
+    settings.noise, settings.strength = "WIDE", 0.5
+    current_preview.tick_preview()
+    assert same(read_positions(obj.data), before)  # as what is known is not known of wide noise
+    turns.release()
+    settings.noise = "AUTO"
+    group = obj.vertex_groups.new(name="Half")
+    group.add(list(range(100)), 1.0, "REPLACE")
+    settings.vertex_group = "Half"
+    before = read_positions(obj.data)
+    current_preview.tick_preview()
+    assert same(read_positions(obj.data), before)

@@ -94,7 +94,7 @@ def test_the_last_result_is_shown_until_the_next_is_there(settings, monkeypatch)
     settle(session)
     first = read_positions(obj.data)
     go.clear()
-    settings.strength = 0.5
+    settings.noise = "WIDE"
     current_preview.tick_preview()
     assert same(read_positions(obj.data), first)
     assert not session.is_current and not bpy.ops.object.framelet_apply_preview.poll()
