@@ -10,6 +10,7 @@ from .mesh_io import mesh_bridge
 from .preview import targets
 from .properties.setting_values import as_typed
 from .reports.filled_reports import forget_estimate
+from .run.shape import check_shape, shape_of, write_shape
 
 
 def add_noise_to_object(obj: bpy.types.Object, sigma: float, seed: int) -> None:
@@ -18,7 +19,8 @@ def add_noise_to_object(obj: bpy.types.Object, sigma: float, seed: int) -> None:
     Parameters
     ----------
     obj : bpy.types.Object
-        A mesh object in Object Mode or Edit Mode; its active shape key is edited.
+        A mesh object in Object Mode or Edit Mode; its active shape key is edited, or with Multires the finest
+        level.
     sigma : float
         Standard deviation of the noise, in mean edge lengths.
     seed : int
@@ -29,14 +31,13 @@ def add_noise_to_object(obj: bpy.types.Object, sigma: float, seed: int) -> None:
     ValueError
         With a sentence that begins with the object's name. The mesh is as it was.
     """
-    reason = mesh_bridge.refusal(obj)
-    if reason is not None:
-        raise ValueError(reason)
+    check_shape(obj)
     import numpy as np
 
     from ..core import add_noise
 
-    surface, movable = mesh_bridge.read_surface_and_movable(obj)
+    with shape_of(obj) as shape:
+        surface, movable = mesh_bridge.read_surface_and_movable(shape)
     if movable is not None and not movable.any():
         raise ValueError(f"‘{obj.name}’ has no selected vertices; select where noise should be added.")
     try:
@@ -45,7 +46,7 @@ def add_noise_to_object(obj: bpy.types.Object, sigma: float, seed: int) -> None:
         raise ValueError(f"‘{obj.name}’: {error}") from error
     if movable is not None:
         vertices = np.where(movable[:, None], vertices, surface.vertices)
-    mesh_bridge.write_vertices(obj, surface, vertices)
+    write_shape(obj, surface, vertices)
 
 
 class OBJECT_OT_framelet_add_noise(bpy.types.Operator):

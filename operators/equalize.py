@@ -18,6 +18,7 @@ from .properties.scene_units import displacement_in_scene, length_text
 from .properties.setting_values import as_typed
 from .properties.settings import FrameMixin
 from .reports.filled_reports import forget_estimate
+from .run.shape import check_shape, shape_of, write_shape
 
 
 def equalize_object(
@@ -34,7 +35,8 @@ def equalize_object(
     Parameters
     ----------
     obj : bpy.types.Object
-        A mesh object in Object Mode or Edit Mode; its active shape key is edited.
+        A mesh object in Object Mode or Edit Mode; its active shape key is edited, or with Multires the finest
+        level.
     gains : sequence of float
         One for each level, finest first.
     frame, stencil, boundary : str
@@ -54,19 +56,18 @@ def equalize_object(
     ValueError
         With a sentence that names the object. The mesh is as it was.
     """
-    reason = mesh_bridge.refusal(obj)
-    if reason is not None:
-        raise ValueError(reason)
+    check_shape(obj)
     import numpy as np
 
     from ..core.equalizer import check_gains
 
-    surface, movable = mesh_bridge.read_surface_and_movable(obj)
+    with shape_of(obj) as shape:
+        surface, movable = mesh_bridge.read_surface_and_movable(shape)
+        group = mesh_bridge.read_weights(shape, vertex_group) if vertex_group else None
     if movable is not None and not movable.any():
         raise ValueError(f"‘{obj.name}’ has no selected vertices; select what should be equalized.")
     weights = None if movable is None else movable.astype(np.float64)
-    if vertex_group:
-        group = mesh_bridge.read_weights(obj, vertex_group)
+    if group is not None:
         group = 1.0 - group if invert else group
         weights = group if weights is None else weights * group
     try:
@@ -75,7 +76,7 @@ def equalize_object(
         vertices = equalizer.equalized(gains, weights=weights)
     except ValueError as error:
         raise ValueError(f"‘{obj.name}’: {error}") from error
-    mesh_bridge.write_vertices(obj, surface, vertices)
+    write_shape(obj, surface, vertices)
     return displacement_in_scene(obj, surface.vertices, vertices)
 
 

@@ -14,11 +14,13 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from ..core.settings.outliers import SPIKE_LENGTH, SPIKE_VERTICES
 from .mesh_io import mesh_bridge
 from .mesh_io.region_bridge import read_region
+from .modifier.multires import find_multires
 from .modifier.recipes import DISPLACEMENT
 from .modifier.stack import find_modifier
 from .preview import targets
 from .properties.region_options import RegionOptions
 from .properties.setting_values import as_typed
+from .run.shape import check_cage, check_shape, shape_of, write_shape
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -67,7 +69,8 @@ def flatten_spikes(obj: bpy.types.Object, length: float = SPIKE_LENGTH, most: in
     Parameters
     ----------
     obj : bpy.types.Object
-        A mesh object; its active shape key is edited. What is hidden or masked stays.
+        A mesh object; its active shape key is edited, or with Multires the finest level. What is hidden or
+        masked stays.
     length, most : float, int
         What a spike is, see `core.mesh.spikes.find_spikes`.
 
@@ -83,21 +86,20 @@ def flatten_spikes(obj: bpy.types.Object, length: float = SPIKE_LENGTH, most: in
     """
     from ..core.mesh.spikes import find_spikes, flattened
 
-    reason = mesh_bridge.refusal(obj)
-    if reason is not None:
-        raise ValueError(reason)
+    check_shape(obj)
     if find_modifier(obj, DISPLACEMENT) is not None:
         raise ValueError(
             f"‘{obj.name}’ has the modifier of a run, which counts on its spikes; apply or remove it first."
         )
-    surface, movable, region = read_region(obj, RegionOptions())
+    with shape_of(obj) as shape:
+        surface, movable, region = read_region(shape, RegionOptions())
     spikes = find_spikes(surface, length, most)
     if movable is not None:
         spikes &= movable
     if region.weights is not None:
         spikes &= region.weights > 0.0
     vertices = flattened(surface, spikes)
-    mesh_bridge.write_vertices(obj, surface, vertices)
+    write_shape(obj, surface, vertices)
     return int((vertices != surface.vertices).any(axis=1).sum())
 
 
@@ -108,13 +110,14 @@ def _select_on_targets(
     found: str,
 ) -> set[str]:
     """Select, in Edit Mode, what is found of every target; `found` is the sentence that says how much."""
-    if not any(obj.data.is_editmode for obj in targets.target_objects(context)):
+    objects = targets.target_objects(context)
+    if not any(obj.data.is_editmode for obj in objects) and any(
+        find_multires(obj) is None for obj in objects
+    ):
         bpy.ops.object.mode_set(mode="EDIT")
 
     def select(obj: bpy.types.Object, _progress: targets.Progress) -> int:
-        reason = mesh_bridge.refusal(obj)
-        if reason is not None:
-            raise ValueError(reason)
+        check_cage(obj, "selection")
         chosen = find(mesh_bridge.read_surface(obj))
         select_vertices(obj, chosen)
         return int(chosen.sum())

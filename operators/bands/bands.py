@@ -12,6 +12,7 @@ from ..mesh_io import band_storage, mesh_bridge
 from ..mesh_io.band_storage import LOW, REST, BandNote, band_name
 from ..mesh_io.mesh_facts import find_facts, is_on_cells, resolve_frame, stored_bytes
 from ..modifier import offsets
+from ..run.shape import check_cage
 from .transforms import transform_of
 
 if TYPE_CHECKING:
@@ -96,9 +97,7 @@ def analyze_object(
     ValueError
         With a sentence that names the object. The mesh is as it was.
     """
-    reason = mesh_bridge.refusal(obj)
-    if reason is not None:
-        raise ValueError(reason)
+    check_cage(obj, "bands that are kept", "press Equalize, or ")
     import numpy as np
 
     from ...core.mesh.checks import check_surface

@@ -12,6 +12,7 @@ from ..modifier.node_groups import MASK
 from ..modifier.offsets import offset_of, remove_modifier
 from ..modifier.recipes import DISPLACEMENT, EQUALIZER, equalizer_recipe, level_name, recipe_of
 from ..modifier.stack import attach, find_modifier
+from ..run.shape import check_cage
 from .transforms import equalizer_of
 
 if TYPE_CHECKING:
@@ -53,11 +54,9 @@ def make_live(
     ValueError
         With a sentence that names the object. Everything is as it was.
     """
-    reason = mesh_bridge.refusal(obj)
-    if reason is None and obj.mode != "OBJECT":
-        reason = f"‘{obj.name}’: the live equalizer is made in Object Mode; leave the mode first."
-    if reason is not None:
-        raise ValueError(reason)
+    check_cage(obj, "bands that are kept", "press Equalize, or ")
+    if obj.mode != "OBJECT":
+        raise ValueError(f"‘{obj.name}’: the live equalizer is made in Object Mode; leave the mode first.")
     cage = mesh_bridge.read_surface(obj)
     added = offset_of(obj, DISPLACEMENT)
     surface = cage if added is None else cage.with_vertices(cage.vertices + added)

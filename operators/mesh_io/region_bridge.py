@@ -98,7 +98,9 @@ def _movable(
         # In Edit Mode hidden vertices are not selected.
         movable = mesh_bridge.read_flag(mesh, SELECTED) & ~hidden
         if not movable.any():
-            raise ValueError(f"‘{obj.name}’ has no selected vertices; select what should be denoised.")
+            raise ValueError(
+                f"‘{obj.name}’ has no selected vertices; select what should be denoised or measured."
+            )
         return movable
     if options.keep_hidden:
         hidden[_vertices_of_hidden_faces(mesh, surface)] = True

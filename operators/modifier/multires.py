@@ -45,7 +45,7 @@ def multires_refusal(obj: bpy.types.Object, output: str) -> str | None:
         return None
     has = f"‘{obj.name}’ has a Multires modifier"
     if obj.mode != "OBJECT":
-        return f"{has}; switch to Object Mode, where its finest level is denoised, or apply it."
+        return f"{has}, whose finest level is reached in Object Mode; switch to it, or apply the modifier."
     if modifier != obj.modifiers[0] or not modifier.show_viewport:
         return f"{has} that is not the first one or is off; move it to the top and turn it on, or apply it."
     if obj.data.shape_keys is not None:

@@ -18,24 +18,23 @@ from ..modifier.offsets import offset_of
 from ..modifier.recipes import DISPLACEMENT
 from ..modifier.stack import find_modifier
 from ..properties.output_choices import IN_PLACE
-from ..run.assembly import assemble
-from ..run.denoise_job import DenoiseJob, DenoiseOutcome, compute, with_amount
+from ..run.denoise_job import with_amount
 from ..run.denoise_object import read_job, write_outcome
 from ..run.denoise_run import Written
 from ..run.output import refusal
 from ..run.run_guard import find_mesh, find_object, mark_of, what_changed
 from ..shortage import reserve_for_writing, shortage_told
+from .outcomes import computed, recalled
 from .picture_source import PictureSource, Shown
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     import bpy
     import numpy as np
     from numpy.typing import NDArray
 
     from ...core.settings import DenoiseSettings
     from ..properties.region_options import RegionOptions
+    from ..run.denoise_job import DenoiseJob, DenoiseOutcome
 
 MOST_VERTICES = 500_000
 """Above this a change takes a second and more to be seen, and pressing Denoise serves better."""
@@ -73,7 +72,7 @@ class PreviewSession:
         self._result: NDArray[np.float32] | None = None
         self._inputs: dict[str, object] = {}
         kept_original.keep(obj.data, self._original, self._shown)
-        self._source = PictureSource(_computed)
+        self._source = PictureSource(computed, recalled)
 
     @property
     def name(self) -> str:
@@ -307,15 +306,6 @@ class PreviewSession:
         kept_original.keep(obj.data, self._original, positions)
         mesh_bridge.show_positions(obj.data, positions)
         self._shown = positions
-
-
-def _computed(
-    job: DenoiseJob, callback: Callable[[float, float], bool], should_stop: Callable[[], bool]
-) -> DenoiseOutcome:
-    """Carry out a job, with mirrored halves; on the thread."""
-    with shortage_told(job.name):
-        assembly = assemble([job])
-        return assembly.split(compute(assembly.job, callback, should_stop=should_stop))[0]
 
 
 def begin_preview(obj: bpy.types.Object, settings: DenoiseSettings, options: RegionOptions) -> PreviewSession:

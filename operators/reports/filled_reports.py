@@ -40,6 +40,8 @@ class MeasuredNoise(NamedTuple):
 
     noise: NoiseEstimate
     scale: float
+    is_part: bool = False
+    """Whether it is that of a part of the mesh."""
 
 
 def fill_report(properties: FrameletReport, measured: Mapping[str, MeasuredReport]) -> None:

@@ -12,12 +12,13 @@ from drawing import draw
 from framelet.core import PRESETS, DenoiseSettings, denoise
 from framelet.operators.mesh_io import mesh_bridge
 from framelet.operators.mesh_io.mesh_bridge import read_positions
-from framelet.operators.preview import current_preview, preview_session
+from framelet.operators.preview import current_preview, outcomes
 from framelet.operators.preview.drafts import draft_of
 from framelet.operators.preview.known_results import FARTHEST, KnownResults
-from framelet.operators.run import denoise_job
+from framelet.operators.run import denoise_job, denoise_run
+from framelet.operators.run.denoise_run import State
 from framelet.ui.panels import run_rows
-from run_steps import SECONDS, expected_for, same, settle, turn_on
+from run_steps import SECONDS, expected_for, same, settle, start, turn_on, until_done
 
 pytestmark = pytest.mark.usefixtures("no_thread_stays")
 
@@ -25,7 +26,7 @@ pytestmark = pytest.mark.usefixtures("no_thread_stays")
 @pytest.fixture
 def steps(monkeypatch):
     """Let each computation of a preview wait for its turn; gives the settings of those that began."""
-    original, begun, turns = preview_session.compute, [], threading.Semaphore(0)
+    original, begun, turns = outcomes.compute, [], threading.Semaphore(0)
     has_begun = threading.Semaphore(0)
 
     def gated(job, callback=None, should_stop=None):
@@ -36,7 +37,7 @@ def steps(monkeypatch):
                 break
         return original(job, callback, should_stop)
 
-    monkeypatch.setattr(preview_session, "compute", gated)
+    monkeypatch.setattr(outcomes, "compute", gated)
     yield begun, turns, has_begun
     for _ in range(20):
         turns.release()
@@ -125,7 +126,7 @@ def test_the_sidebar_is_drawn_again_as_the_work_goes_on(settings, monkeypatch):
                     break
         return denoise_job.compute(job, callback, should_stop)
 
-    monkeypatch.setattr(preview_session, "compute", told_slowly)
+    monkeypatch.setattr(outcomes, "compute", told_slowly)
     noisy_monkey()
     settings.preset = "AUTO"
     session = turn_on()
@@ -199,7 +200,7 @@ def test_an_answer_to_an_older_value_does_not_take_the_picture_away(settings, st
 
 
 def test_other_settings_or_another_region_know_nothing(settings, steps):
-    begun, turns, has_begun = steps
+    _, turns, _ = steps
     obj = noisy_monkey()
     settings.preset = "AUTO"
     session = turn_on()
@@ -219,3 +220,40 @@ def test_other_settings_or_another_region_know_nothing(settings, steps):
     before = read_positions(obj.data)
     current_preview.tick_preview()
     assert same(read_positions(obj.data), before)
+
+
+def test_what_a_run_came_to_is_shown_at_once(settings, steps):
+    begun, _, _ = steps
+    obj = noisy_monkey()
+    surface = mesh_bridge.read_surface(obj)
+    settings.preset = "AUTO"
+    assert bpy.ops.object.framelet_denoise(preset="AUTO", output="MODIFIER") == {"FINISHED"}
+    session = turn_on()
+    assert session.wait(SECONDS)
+    current_preview.tick_preview()
+    assert session.is_current
+    np.testing.assert_allclose(shown(obj), denoise(surface).vertices, atol=1e-6)
+    assert DenoiseSettings() not in begun and DenoiseSettings(passes=1) not in begun
+
+
+def test_a_run_has_what_the_preview_came_to(settings, monkeypatch):
+    obj = noisy_monkey()
+    surface = mesh_bridge.read_surface(obj)
+    settings.preset = "AUTO"
+    settle(turn_on())
+    current_preview.stop_preview()
+
+    def compute(*_given):
+        raise AssertionError("it is known already")
+
+    monkeypatch.setattr(denoise_run, "compute", compute)
+    run = start(obj, settings=DenoiseSettings())
+    assert until_done(run) is State.READY
+    run.finish()
+    assert same(read_positions(obj.data), denoise(surface).vertices)
+
+
+def shown(obj):
+    """Return the positions with all modifiers."""
+    found = obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+    return read_positions(found)

@@ -8,8 +8,10 @@ import bpy
 import numpy as np
 import pytest
 from framelet.core import PRESETS, add_noise, denoise, estimate_noise
+from framelet.core.noise.estimate import estimate_noise as estimate_where
 from framelet.operators.estimate_noise import estimate_object_noise
 from framelet.operators.mesh_io import mesh_bridge
+from framelet.operators.outliers import select_vertices
 from framelet.operators.properties.scene_units import length_in_scene
 
 
@@ -100,13 +102,61 @@ def test_several_objects(make_noisy, capfd):
     assert measured().keys() == ["Even"]
 
 
-def test_edit_mode_measures_the_whole_mesh(make_noisy):
-    obj = make_noisy()
-    expected = estimate_noise(mesh_bridge.read_surface(obj))
+@pytest.fixture
+def uneven(make_noisy):
+    """A ball that is noisy in its upper half only, and which vertices these are."""
+    obj = make_noisy(sigma=0.0)
+    surface = mesh_bridge.read_surface(obj)
+    upper = surface.vertices[:, 2] > 0.0
+    vertices = np.where(upper[:, None], add_noise(surface, 0.2, 1), surface.vertices)
+    mesh_bridge.write_vertices(obj, surface, vertices)
+    return obj, upper
+
+
+def limit(obj, upper, by):
+    """Let only some vertices move, each time in another way."""
+    if by == "SELECTION":
+        bpy.ops.object.mode_set(mode="EDIT")
+        select_vertices(obj, upper)
+    elif by == "MASK":
+        mask = obj.data.attributes.new(".sculpt_mask", "FLOAT", "POINT")
+        mask.data.foreach_set("value", (~upper).astype(np.float32))
+    elif by == "HIDDEN":
+        mesh = obj.data
+        for polygon in mesh.polygons:
+            polygon.hide = not upper[list(polygon.vertices)].any()
+        for vertex, moves in zip(mesh.vertices, upper, strict=True):
+            vertex.hide = not moves
+    else:
+        obj.vertex_groups.new(name="Upper").add(np.flatnonzero(upper).tolist(), 1.0, "REPLACE")
+        bpy.context.scene.framelet.vertex_group = "Upper"
+
+
+@pytest.mark.parametrize("by", ["SELECTION", "GROUP", "MASK", "HIDDEN"])
+def test_it_is_measured_where_vertices_may_move(uneven, by, capfd):
+    obj, upper = uneven
+    surface = mesh_bridge.read_surface(obj)
+    expected = estimate_where(surface, where=upper)
+    assert expected.sigma > 1.5 * estimate_noise(surface).sigma
+    bpy.ops.object.framelet_estimate_noise()
+    assert measured()["Ball"].sigma == pytest.approx(estimate_noise(surface).sigma)
+    assert "Noise of ‘Ball’: " in capfd.readouterr().out
+    limit(obj, upper, by)
+    bpy.ops.object.framelet_estimate_noise()
+    assert measured()["Ball"].sigma == pytest.approx(expected.sigma, rel=0.1 if by == "HIDDEN" else 1e-6)
+    assert "Noise of what may move of ‘Ball’: " in capfd.readouterr().out
+
+
+def test_without_a_selection_there_is_nothing_to_measure(make_noisy):
+    make_noisy()
     bpy.ops.object.mode_set(mode="EDIT")
     bpy.ops.mesh.select_all(action="DESELECT")
-    bpy.ops.object.framelet_estimate_noise()
-    assert measured()["Ball"].sigma == pytest.approx(expected.sigma)
+    with pytest.raises(
+        RuntimeError, match="‘Ball’ has no selected vertices; select what should be denoised or m"
+    ):
+        bpy.ops.object.framelet_estimate_noise()
+    bpy.ops.mesh.select_all(action="SELECT")
+    assert bpy.ops.object.framelet_estimate_noise() == {"FINISHED"}
 
 
 def test_bad_meshes_get_a_sentence_beside_good_ones(make_noisy, capfd):

@@ -5,7 +5,7 @@
 import bpy
 import numpy as np
 import pytest
-from framelet.core import PRESETS, denoise
+from framelet.core import PRESETS, add_noise, denoise, equalize, estimate_noise
 from framelet.core.mesh.geometry import mean_edge_length
 from framelet.operators.mesh_io.mesh_bridge import read_surface
 from framelet.operators.modifier.multires import level_object, reshape
@@ -124,7 +124,7 @@ def test_a_vertex_group_limits_the_level(sculpt):
 def test_other_modes_are_refused(sculpt, mode):
     surface = level(sculpt)
     bpy.ops.object.mode_set(mode=mode)
-    assert "switch to Object Mode, where its finest level is denoised" in refused()
+    assert "whose finest level is reached in Object Mode; switch to it, or apply the modifier" in refused()
     bpy.ops.object.mode_set(mode="OBJECT")
     assert level(sculpt).vertices.tobytes() == surface.vertices.tobytes()
 
@@ -214,3 +214,75 @@ def test_undo_takes_the_result_back(sculpt):
     np.testing.assert_allclose(level(bpy.data.objects["Mesh"]).vertices, before, atol=1e-6)
     bpy.ops.ed.redo()
     np.testing.assert_allclose(level(bpy.data.objects["Mesh"]).vertices, after, atol=1e-6)
+
+
+def test_noise_is_measured_on_the_finest_level(sculpt):
+    expected = estimate_noise(level(sculpt))
+    assert (
+        expected.sigma_edges
+        == pytest.approx(0.1, rel=0.1)
+        != estimate_noise(read_surface(sculpt)).sigma_edges
+    )
+    assert bpy.ops.object.framelet_estimate_noise() == {"FINISHED"}
+    found = bpy.context.window_manager.framelet_estimate.objects["Mesh"]
+    assert found.sigma == pytest.approx(expected.sigma)
+
+
+def test_noise_is_measured_where_the_level_may_move(sculpt):
+    sculpt.vertex_groups.new(name="Part").add(range(20), 1.0, "REPLACE")
+    bpy.ops.object.framelet_estimate_noise()
+    whole = bpy.context.window_manager.framelet_estimate.objects["Mesh"].sigma
+    bpy.context.scene.framelet.vertex_group = "Part"
+    bpy.ops.object.framelet_estimate_noise()
+    assert bpy.context.window_manager.framelet_estimate.objects["Mesh"].sigma != whole
+
+
+def test_noise_is_added_to_the_finest_level(sculpt):
+    surface, cage = level(sculpt), read_surface(sculpt).vertices
+    assert bpy.ops.object.framelet_add_noise(sigma=0.2, seed=3) == {"FINISHED"}
+    np.testing.assert_allclose(level(sculpt).vertices, add_noise(surface, 0.2, 3), atol=1e-5)
+    assert read_surface(sculpt).vertices.tobytes() == cage.tobytes()
+
+
+def test_the_finest_level_is_equalized(sculpt):
+    surface, cage = level(sculpt), read_surface(sculpt).vertices
+    assert bpy.ops.object.framelet_equalize(levels=2, gain_1=0.2, gain_2=0.5) == {"FINISHED"}
+    expected = equalize(surface, (0.2, 0.5))
+    assert np.abs(expected - surface.vertices).max() > 0.01
+    np.testing.assert_allclose(level(sculpt).vertices, expected, atol=1e-5)
+    assert read_surface(sculpt).vertices.tobytes() == cage.tobytes()
+
+
+def test_a_spike_of_the_finest_level_is_flattened(sculpt):
+    surface = level(sculpt)
+    vertices = surface.vertices.copy()
+    vertices[1000] *= 1.5
+    reshape(sculpt, vertices)
+    assert bpy.ops.object.framelet_flatten_spikes() == {"FINISHED"}
+    assert np.abs(level(sculpt).vertices[1000] - surface.vertices[1000]).max() < 0.1
+
+
+@pytest.mark.parametrize(
+    ("name", "what"),
+    [
+        ("analyze", "whose levels have no bands that are kept; press Equalize, or apply the modifier first"),
+        ("live_equalizer", "whose levels have no bands that are kept; press Equalize, or apply the modifier"),
+        ("select_spikes", "whose levels have no selection; apply the modifier first"),
+        ("select_islands", "whose levels have no selection; apply the modifier first"),
+    ],
+)
+def test_what_levels_do_not_have_is_said(sculpt, name, what):
+    surface = level(sculpt)
+    with pytest.raises(RuntimeError, match=f"‘Mesh’ has a Multires modifier, {what}"):
+        getattr(bpy.ops.object, f"framelet_{name}")()
+    assert sculpt.mode == "OBJECT" and sculpt.modifiers.keys() == ["Multires"]
+    assert level(sculpt).vertices.tobytes() == surface.vertices.tobytes()
+
+
+@pytest.mark.parametrize("name", ["estimate_noise", "add_noise", "equalize", "flatten_spikes"])
+@pytest.mark.parametrize("mode", ["SCULPT", "EDIT"])
+def test_tools_name_object_mode_too(sculpt, name, mode):
+    bpy.ops.object.mode_set(mode=mode)
+    with pytest.raises(RuntimeError, match="whose finest level is reached in Object Mode"):
+        getattr(bpy.ops.object, f"framelet_{name}")()
+    bpy.ops.object.mode_set(mode="OBJECT")

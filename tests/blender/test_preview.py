@@ -10,7 +10,7 @@ import pytest
 from blender_objects import noisy_monkey
 from framelet.operators.mesh_io import mesh_bridge
 from framelet.operators.mesh_io.mesh_bridge import read_positions
-from framelet.operators.preview import current_preview, preview_session
+from framelet.operators.preview import current_preview, outcomes, preview_session
 from meshes import noisy, triangle_grid
 from run_steps import assert_clean, expected_for, same, settle, turn_on
 
@@ -77,7 +77,7 @@ def test_a_mesh_is_prepared_once(settings, monkeypatch, preset, name):
 
 def test_the_last_result_is_shown_until_the_next_is_there(settings, monkeypatch):
     """Nothing in between, and nothing that was not computed."""
-    go, original = threading.Event(), preview_session.compute
+    go, original = threading.Event(), outcomes.compute
     go.set()
 
     def gated(job, callback=None, should_stop=None):
@@ -86,7 +86,7 @@ def test_the_last_result_is_shown_until_the_next_is_there(settings, monkeypatch)
                 break
         return original(job, callback, should_stop)
 
-    monkeypatch.setattr(preview_session, "compute", gated)
+    monkeypatch.setattr(outcomes, "compute", gated)
     settings.preset = "AUTO"
     obj = noisy_monkey()
     surface = mesh_bridge.read_surface(obj)
@@ -190,7 +190,7 @@ def test_unexpected_errors_are_shown(settings, monkeypatch, capfd):
     def compute(*_, **__):
         raise KeyError("gone")
 
-    monkeypatch.setattr(preview_session, "compute", compute)
+    monkeypatch.setattr(outcomes, "compute", compute)
     session = turn_on()
     settle(session)
     assert session.message == "An unexpected error: KeyError('gone')."

@@ -32,7 +32,7 @@ TEXTS = {
         "Rauschen aus den ausgewählten Netzen entfernen; im Bearbeitungsmodus bewegen sich nur die ausgewählten "
         "Punkte"
     ),
-    "Measure how strong the noise of the selected meshes is; changes nothing": (
+    "Measure how strong the noise of the selected meshes is, where they may move; changes nothing": (
         "Messen, wie stark das Rauschen der ausgewählten Netze ist; ändert nichts"
     ),
     "Move vertices along their normals by random amounts, to try out what denoising does": (
@@ -123,6 +123,9 @@ TEXTS = {
         "{title} von {names}: Farben von {lowest} bis {highest}, {share:.1f} % aller Werte liegen darin"
     ),
     "Noise of {names}: {noise}": "Rauschen von {names}: {noise}",
+    "Noise of what may move of {names}: {noise}": (
+        "Rauschen dessen, was sich von {names} bewegen darf: {noise}"
+    ),
     "Noise of {names}: from {least} of ‘{first}’ to {most} of ‘{last}’": (
         "Rauschen von {names}: von {least} an ‘{first}’ bis {most} an ‘{last}’"
     ),

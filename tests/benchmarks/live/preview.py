@@ -10,7 +10,6 @@ import argparse
 import re
 import sys
 import time
-from pathlib import Path
 
 import bpy
 from run import PAGE, make_object
