@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, NamedTuple
 
-from ..mesh_io.mesh_bridge import with_moved
+from ..mesh_io import mesh_bridge
 from .drafts import Picture, compute_pictures
 from .known_results import KnownResults
 from .latest import Latest
@@ -105,7 +105,7 @@ class PictureSource:
             return None
         positions = outcome = None
         if picture is not None:
-            positions = with_moved(request.job.surface, picture.outcome.vertices)
+            positions = mesh_bridge.with_moved(request.job.surface, picture.outcome.vertices)
             if picture.is_final:
                 outcome = picture.outcome
                 self._known.add(request.job.settings, positions)

@@ -3,7 +3,10 @@
 """What is computed as one surface: an object with its mirrored halves, and objects whose borders meet.
 
 Copies of the meshes are laid side by side, their borders are welded for the work, and each object takes the
-motion of its own vertices. Nothing here knows Blender, so that any thread may run it.
+motion of its own vertices. Vertices that an Array modifier joins take the mean of their motions: they stay
+joined, without the work that copies on all sides would be.
+
+Nothing here knows Blender, so that any thread may run it.
 """
 
 from __future__ import annotations
@@ -23,6 +26,7 @@ if TYPE_CHECKING:
     from ...core import Region, SurfaceMesh
     from ...core.mesh.joined import Placement
     from ...core.report import DenoiseReport
+    from ..modifier.arrays import Step
     from ..modifier.mirrors import Plane
 
 NEAR = 1e-4
@@ -87,8 +91,11 @@ class Assembly:
         for number, (job, start, linear, _, seams) in enumerate(self.members):
             own = slice(start, start + job.surface.n_vertices)
             motion = (outcome.vertices[own] - whole[own]) @ np.linalg.inv(linear).T
-            for normal, vertices in seams:
-                motion[vertices] -= np.outer(motion[vertices] @ normal, normal)
+            for _ in range(2):  # where seams of several kinds meet
+                for normal, vertices in seams:
+                    motion[vertices] -= np.outer(motion[vertices] @ normal, normal)
+                for step in job.steps:
+                    _join(motion, step)
             vertices = job.surface.vertices + motion
             report = outcome.measured.report
             counts = {name: round(share * getattr(report, name)) for name in COUNTS}
@@ -132,9 +139,10 @@ def assemble(jobs: Sequence[DenoiseJob]) -> Assembly:
         the space of its object, several are in that of the scene.
     """
     first = jobs[0]
-    if len(jobs) == 1 and not first.mirrors:
-        return Assembly(first, [])
     import numpy as np
+
+    if len(jobs) == 1 and not first.mirrors:
+        return Assembly(first, [Member(first, 0, np.eye(3), 1, [])] if first.steps else [])
 
     from ...core.mesh.borders import border_vertices
     from ...core.mesh.geometry import mean_edge_length
@@ -172,6 +180,21 @@ def assemble(jobs: Sequence[DenoiseJob]) -> Assembly:
         _region(members, np.concatenate(weldable), near),
     )
     return Assembly(combined, members)
+
+
+def _join(motion: NDArray[np.float64], step: Step) -> None:
+    """Let vertices that a step joins move alike; `motion`, shape (N, 3), is changed."""
+    import numpy as np
+
+    for matrix, first, second in step.joints:
+        turn = matrix[:3, :3]
+        both = (motion[first] + motion[second] @ turn.T) / 2.0
+        both[:, step.stays] = 0.0
+        motion[first], motion[second] = both, both @ np.linalg.inv(turn).T
+        own = first[first == second]  # which move only in ways that the step leaves as they are
+        _, values, ways = np.linalg.svd(np.eye(3) - turn)
+        kept = ways[values < 1e-6]
+        motion[own] = motion[own] @ kept.T @ kept
 
 
 def _on_planes(

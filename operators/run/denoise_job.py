@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from ...core.methods.problem import Callback
     from ...core.report import DenoiseReport, DenoiseResult
     from ...core.settings import DenoiseSettings
+    from ..modifier.arrays import Step
     from ..modifier.mirrors import Plane
 
 
@@ -54,6 +55,8 @@ class DenoiseJob:
         The mesh as it was read, if that was the result of a run, of which `surface` is the original.
     mirrors : tuple of Plane
         Planes in which modifiers mirror the mesh.
+    steps : tuple of Step
+        Steps by which modifiers repeat the mesh, with the vertices that they join.
     origin : ndarray, shape (3,), float64, or None
         Where the object is in the scene.
     cage : SurfaceMesh or None
@@ -72,6 +75,7 @@ class DenoiseJob:
     amount: float = 1.0
     present: SurfaceMesh | None = None
     mirrors: tuple[Plane, ...] = ()
+    steps: tuple[Step, ...] = ()
     origin: NDArray[np.float64] | None = None
     cage: SurfaceMesh | None = None
     is_level: bool = False

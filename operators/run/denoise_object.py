@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from ..mesh_io import custom_normals
 from ..mesh_io.region_bridge import read_region
 from ..mesh_io.shape_keys import read_followers
+from ..modifier.arrays import read_steps, read_weld_distance
 from ..modifier.displacement import stored_displacement
 from ..modifier.inputs import get_input
 from ..modifier.mirrors import read_mirrors
@@ -78,6 +79,9 @@ def read_job(
     if find_multires(obj) is not None:
         return _read_level(obj, settings, output, options or RegionOptions(), amount)
     surface, movable, region = read_region(obj, options or RegionOptions())
+    joined = read_weld_distance(obj)
+    if joined is not None and region.weld_distance is not None:
+        region = replace(region, weld_distance=max(joined, region.weld_distance))
     job = DenoiseJob(
         obj.name,
         surface,
@@ -88,6 +92,7 @@ def read_job(
         output,
         amount,
         mirrors=read_mirrors(obj),
+        steps=read_steps(obj, surface),
         origin=origin_of(obj),
     )
     job = _with_modifier(obj, job, from_original)

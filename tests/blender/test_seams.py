@@ -208,6 +208,125 @@ def test_a_mirror_without_joining_is_no_seam(mirrored):
     assert read(obj).tobytes() == expected.tobytes()
 
 
+# Arrays and welds ------------------------------------------------------------------------------------------
+
+
+def open_vertices(obj):
+    """Return how many vertices of borders there are with all modifiers."""
+    graph = bpy.context.evaluated_depsgraph_get()
+    return int(border_vertices(mesh_bridge.read_arrays(obj.evaluated_get(graph).data, None)).sum())
+
+
+def periodic(rng, axes=(0,)):
+    """Return a noisy grid whose opposite borders along some axes are alike, and its sizes."""
+    flat = triangle_grid(16, 12)
+    noise = rng.normal(0, 0.2, flat.vertices.shape)
+    low, high = flat.vertices.min(axis=0), flat.vertices.max(axis=0)
+    vertices = flat.vertices + noise
+    for axis in axes:
+        first = np.flatnonzero(np.isclose(flat.vertices[:, axis], low[axis]))
+        last = np.flatnonzero(np.isclose(flat.vertices[:, axis], high[axis]))
+        other = 1 - axis
+        first, last = (each[np.argsort(flat.vertices[each, other])] for each in (first, last))
+        vertices[last] = vertices[first]
+        vertices[last, axis] += high[axis] - low[axis]
+    return flat.with_vertices(vertices.astype(np.float32)), high - low
+
+
+def add_array(obj, **values):
+    modifier = obj.modifiers.new("Array", "ARRAY")
+    modifier.use_merge_vertices, modifier.merge_threshold, modifier.count = True, 1e-3, 3
+    for name, value in values.items():
+        setattr(modifier, name, value)
+    return modifier
+
+
+@pytest.mark.parametrize("axes", [(0,), (0, 1)], ids=["a row", "a field"])
+@pytest.mark.parametrize("output", ["IN_PLACE", "MODIFIER"])
+def test_copies_of_an_array_stay_joined(make_object, rng, axes, output):
+    surface, size = periodic(rng, axes)
+    obj = make_object(surface)
+    modifiers = []
+    for axis in axes:
+        offset = np.where(np.arange(3) == axis, size, 0.0)
+        modifiers.append(
+            add_array(
+                obj, use_relative_offset=False, use_constant_offset=True, constant_offset_displace=offset
+            )
+        )
+    before, closed = read(obj), open_vertices(obj)
+    bpy.ops.object.framelet_denoise(preset="TRI_2", output=output)
+    assert open_vertices(obj) == closed
+    moved = read(obj) if output == "IN_PLACE" else before + offset_of(obj, DISPLACEMENT)
+    assert lengths(moved - before)[border_vertices(surface)].max() > 0.05
+    # So that this means something:
+    mesh_bridge.write_vertices(obj, surface, before)
+    for modifier in modifiers:
+        modifier.use_merge_vertices = False
+    bpy.ops.object.framelet_denoise(preset="TRI_2")
+    for modifier in modifiers:
+        modifier.use_merge_vertices = True
+    assert open_vertices(obj) > closed
+
+
+def test_a_step_that_is_as_long_as_the_mesh_stays(make_object, rng):
+    surface, size = periodic(rng)
+    vertices = surface.vertices.copy()
+    vertices[:, 0] = np.clip(vertices[:, 0], *triangle_grid(16, 12).vertices[[0, -1], 0])
+    ends = [np.flatnonzero(triangle_grid(16, 12).vertices[:, 0] == each) for each in (0.0, size[0])]
+    for vertex, end in zip(ends, (0.0, size[0]), strict=True):
+        vertices[vertex, 0] = end
+    obj = make_object(surface.with_vertices(vertices))
+    add_array(obj, relative_offset_displace=(1.0, 0.0, 0.0))
+    closed = open_vertices(obj)
+    bpy.ops.object.framelet_denoise()
+    after = read(obj)
+    assert open_vertices(obj) == closed
+    assert (after[ends[0], 0] == 0.0).all() and np.ptp(after[ends[0], 2]) < np.ptp(vertices[ends[0], 2])
+
+
+def test_copies_around_an_axis_stay_joined(make_object, rng):
+    flat, size = periodic(rng)
+    angle = np.pi / 3.0
+    turned = np.empty_like(flat.vertices)
+    for number, (x, y, z) in enumerate(flat.vertices):
+        way, radius = angle * x / size[0], 8.0 + y
+        turned[number] = radius * np.cos(way), radius * np.sin(way), z
+    obj = make_object(flat.with_vertices(turned.astype(np.float32)))
+    helper = bpy.data.objects.new("Step", None)
+    bpy.context.collection.objects.link(helper)
+    helper.rotation_euler = (0.0, 0.0, angle)
+    bpy.context.view_layer.update()
+    add_array(
+        obj,
+        use_relative_offset=False,
+        use_object_offset=True,
+        offset_object=helper,
+        count=6,
+        use_merge_vertices_cap=True,
+    )
+    before, closed = read(obj), open_vertices(obj)
+    bpy.ops.object.framelet_denoise(preset="TRI_2")
+    assert open_vertices(obj) == closed and lengths(read(obj) - before).max() > 0.05
+
+
+def test_what_a_weld_modifier_joins_stays_joined(make_object, rng):
+    whole = noisy(triangle_grid(16, 12), rng)
+    soup, _ = exploded(whole)
+    gaps = soup.with_vertices(
+        soup.vertices + rng.uniform(-2e-3, 2e-3, soup.vertices.shape).astype(np.float32)
+    )
+    obj = make_object(gaps)
+    obj.modifiers.new("Weld", "WELD").merge_threshold = 0.02
+    before, closed = read(obj), open_vertices(obj)
+    assert closed == border_vertices(whole).sum()
+    bpy.ops.object.framelet_denoise(preset="TRI_2")
+    assert open_vertices(obj) == closed and lengths(read(obj) - before).max() > 0.05
+    mesh_bridge.write_vertices(obj, gaps, before)
+    bpy.ops.object.framelet_denoise(preset="TRI_2", weld=False)
+    assert lengths(read(obj) - before).max() < 1e-6 or open_vertices(obj) > closed
+
+
 # Several objects -------------------------------------------------------------------------------------------
 
 
