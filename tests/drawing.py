@@ -20,6 +20,7 @@ class Layout:
             "prop_enum",
             "progress",
             "alert",
+            "slider",
         )
         self.record = record or {kind: [] for kind in kinds}
         self.active, self.alert = active, alert
@@ -39,10 +40,12 @@ class Layout:
         assert issubclass(getattr(bpy.types, name), bpy.types.Menu)
         self.record["menu"].append(name)
 
-    def prop(self, data, name, **_options):
+    def prop(self, data, name, slider=False, **_options):
         # A custom property of Blender's is drawn by its key.
         assert name in data.bl_rna.properties or name[2:-2] in data
         self.record["prop"].append(name)
+        if slider:
+            self.record["slider"].append(name)
         if not self.active:
             self.record["grayed"].append(name)
 

@@ -138,6 +138,7 @@ def test_the_automatic_panel_is_calm():
     for _ in range(2):
         shown = draw(panel.VIEW3D_PT_framelet)
         assert shown["prop"] == ["preset", "method", "strength", "noise", "amount"]
+        assert shown["slider"] == ["strength"]  # that has a fill, as a factor has by itself
         assert list(table(shown["label"])) == ROWS
         assert draw(panel.VIEW3D_PT_framelet_advanced)["prop"] == ["passes", "threads"]
         bpy.ops.mesh.primitive_cube_add()

@@ -70,7 +70,7 @@ class VIEW3D_PT_framelet(FrameletPanel, bpy.types.Panel):
         column = settings_column(layout)
         for name in ("preset", "method", "strength", "noise"):
             if has_effect(settings.method, name):
-                column.prop(settings, name)
+                column.prop(settings, name, slider=name == "strength")
         draw_amount(column, settings, context.active_object)
         if settings.method == "AUTO":
             _draw_learned(layout, context)
