@@ -103,7 +103,7 @@ def test_a_bar_takes_the_place_of_apply(settings, steps):
     assert has_begun.acquire(timeout=SECONDS)
 
     def rows():
-        return draw(lambda drawn, context: run_rows.draw_preview(drawn.layout, context))
+        return draw(lambda drawn, _context: run_rows.draw_run(drawn.layout))
 
     assert rows()["operator"] == ["object.framelet_preview"] and rows()["progress"] == ["0%"]
     for _ in range(2):

@@ -7,13 +7,15 @@ import re
 import bpy
 import framelet.ui
 import pytest
+from blender_objects import noisy_monkey
 from drawing import draw
 from framelet.core.learned.scales import N_SCALES
 from framelet.core.settings import PRESETS
 from framelet.operators.properties import setting_values
 from framelet.operators.properties.scene_units import range_text
-from framelet.ui.panels import panel, region_panel, report_panels
+from framelet.ui.panels import panel, region_panel, report_panels, run_rows
 from framelet.ui.panels.layouts import FrameletPanel
+from run_steps import start, until_done
 
 
 def test_panels_are_registered_in_one_tab():
@@ -237,3 +239,23 @@ def test_try_it_before_and_after():
     bpy.ops.object.framelet_compare()
     labels = draw(report_panels.VIEW3D_PT_framelet_try_it)["label"]
     assert {"Suzanne", "Suzanne.001", "Mean Angle"} <= set(labels)
+
+
+@pytest.mark.usefixtures("no_thread_stays")
+def test_no_row_pops_in_while_a_run_goes_on(gate):
+    """The bar stands where the preview's button stood, so that no slider moves under the mouse."""
+    noisy_monkey()
+    record = draw(panel.VIEW3D_PT_framelet)
+    assert record["operator"][1:] == ["object.framelet_preview"] and not record["progress"]
+    run = start(bpy.context.active_object)
+    record = draw(panel.VIEW3D_PT_framelet)
+    assert record["operator"][1:] == ["object.framelet_cancel"] and len(record["progress"]) == 1
+    gate.set()
+    until_done(run)
+
+
+def test_what_the_preview_says_stands_below_the_settings(monkeypatch):
+    noisy_monkey()
+    monkeypatch.setattr(run_rows, "preview_message", lambda: "It ended")
+    labels = draw(panel.VIEW3D_PT_framelet)["label"]
+    assert labels[-1] == "It ended"

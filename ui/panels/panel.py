@@ -21,7 +21,7 @@ from ...operators.run.run_memory import shows_result
 from .layouts import FrameletPanel, draw_settings, draw_value, settings_column
 from .modifier_rows import draw_amount
 from .preset_panel import VIEW3D_PT_framelet_presets
-from .run_rows import draw_preview, draw_progress
+from .run_rows import draw_message, draw_run
 
 MAIN_NAMES = (
     "tuning",
@@ -65,8 +65,7 @@ class VIEW3D_PT_framelet(FrameletPanel, bpy.types.Panel):
         settings = shown_settings(context)
         begin_soon(context.active_object)
         _draw_buttons(layout, context)
-        draw_progress(layout)
-        draw_preview(layout, context)
+        draw_run(layout)
         column = settings_column(layout)
         for name in ("preset", "method", "strength", "noise"):
             if has_effect(settings.method, name):
@@ -74,11 +73,12 @@ class VIEW3D_PT_framelet(FrameletPanel, bpy.types.Panel):
         draw_amount(column, settings, context.active_object)
         if settings.method == "AUTO":
             _draw_learned(layout, context)
-            return
-        layout.separator()
-        draw_settings(layout, settings, MAIN_NAMES, context.active_object)
-        if is_replaced(settings.method, settings.tuning, "lambda_"):
-            _draw_chosen(layout, context)
+        else:
+            layout.separator()
+            draw_settings(layout, settings, MAIN_NAMES, context.active_object)
+            if is_replaced(settings.method, settings.tuning, "lambda_"):
+                _draw_chosen(layout, context)
+        draw_message(layout, context)
 
 
 class VIEW3D_PT_framelet_advanced(FrameletPanel, bpy.types.Panel):

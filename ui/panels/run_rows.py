@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The rows below the button Denoise: how far a run is, and the live preview."""
+"""The row below the button Denoise: how far a run is, or else the live preview."""
 
 from __future__ import annotations
 
@@ -15,20 +15,22 @@ from ...operators.run.run_display import progress_text
 from .layouts import draw_text
 
 
-def draw_progress(layout: bpy.types.UILayout) -> None:
-    """Draw a bar and a button that cancels, as long as a run is going on."""
-    run = current_run()
+def draw_run(layout: bpy.types.UILayout) -> None:
+    """Draw one row: a bar and a button that cancels while a run is going on, else that of the preview.
+
+    It is always there, so that no slider moves under the mouse; during a run there is no preview.
+    """
+    row, run = layout.row(align=True), current_run()
     if run is None:
+        draw_preview(row)
         return
-    row = layout.row(align=True)
     row.progress(factor=run.fraction, text=progress_text(run))
     row.operator(OBJECT_OT_framelet_cancel.bl_idname, text="", icon="X")
 
 
-def draw_preview(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
+def draw_preview(row: bpy.types.UILayout) -> None:
     """Draw the toggle of the preview and, while it is on, the button that keeps it."""
     session = current_preview()
-    row = layout.row(align=True)
     if session is None:
         row.operator(OBJECT_OT_framelet_preview.bl_idname, icon="HIDE_OFF")
     else:
@@ -46,5 +48,9 @@ def draw_preview(layout: bpy.types.UILayout, context: bpy.types.Context) -> None
             row.progress(factor=session.fraction, text=f"{session.fraction:.0%}")
         else:
             row.operator(OBJECT_OT_framelet_apply_preview.bl_idname, icon="CHECKMARK")
+
+
+def draw_message(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
+    """Draw what the preview has to say, for below the settings."""
     if preview_message():
         draw_text(layout.column(align=True), context, preview_message())
