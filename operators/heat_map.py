@@ -131,7 +131,7 @@ class OBJECT_OT_framelet_heat_map(HeatMixin, bpy.types.Operator):
         self.report(
             {"INFO"},
             rpt_(
-                "{title} of {names}: colors from {lowest} to {highest}, {share:.1f} % of all are within"
+                "{title} of {names}: colors from {lowest} to {highest}, {share:.1f}% of all are within"
             ).format(
                 title=rpt_(kind.title),
                 names=targets.names_text(list(done)),

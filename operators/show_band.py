@@ -57,7 +57,7 @@ class OBJECT_OT_framelet_show_band(ShowMixin, bpy.types.Operator):
         self.report(
             {"INFO"},
             rpt_(
-                "{title} of {names}: colors from {lowest} to {highest}, {share:.1f} % of all are within"
+                "{title} of {names}: colors from {lowest} to {highest}, {share:.1f}% of all are within"
             ).format(
                 title=choice.title,
                 names=targets.names_text(list(done)),

@@ -363,7 +363,7 @@ def test_the_report_says_the_range(torus, capfd):
     bpy.context.scene.unit_settings.system = "NONE"
     bpy.ops.object.framelet_heat_map()
     limit = f"{shown().maximum:.3g}"
-    expected = f"Displacement along normals of ‘Torus’: colors from −{limit} to {limit}, 97.9 %"
+    expected = f"Displacement along normals of ‘Torus’: colors from −{limit} to {limit}, 97.9%"
     assert expected in capfd.readouterr().out
     bpy.ops.object.framelet_heat_map(quantity="ANGLE")
     assert (

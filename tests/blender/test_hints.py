@@ -148,7 +148,7 @@ def test_a_large_change_of_volume_stands_out(make_object, rng):
         report.volume_change = change
         record = draw(report_panels.VIEW3D_PT_framelet_last_run)
         alerts.append(record["alert"])
-    assert alerts == [["Volume", "-19.50 %"], []]
+    assert alerts == [["Volume", "-19.50%"], []]
 
 
 def test_sentences_are_broken_into_lines_of_the_sidebar():

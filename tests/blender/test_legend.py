@@ -21,7 +21,7 @@ def measure(text, scale=1.0):
     return 6.0 * scale * len(text), 8.0 * scale
 
 
-def lay_out(area=AREA, scale=1.0, title="Displacement", texts=TEXTS, note="98.0 % in this range"):
+def lay_out(area=AREA, scale=1.0, title="Displacement", texts=TEXTS, note="98.0% in this range"):
     return lay_out_legend(area, scale, title, texts, note, lambda text: measure(text, scale))
 
 
@@ -35,7 +35,7 @@ def inside(inner, outer, slack=1e-6):
 
 
 @pytest.mark.parametrize("scale", [0.75, 1.0, 1.5, 2.0])
-@pytest.mark.parametrize("note", ["", "98.0 % in this range"])
+@pytest.mark.parametrize("note", ["", "98.0% in this range"])
 @pytest.mark.parametrize("texts", [TEXTS, ["0°", "10°", "20°"]])
 def test_everything_lies_on_the_backdrop_and_nothing_overlaps(scale, note, texts):
     found = lay_out(Rectangle(0, 0, 1500, 1200), scale, texts=texts, note=note)
@@ -238,7 +238,7 @@ def test_it_serves_bands_too(torus):
     title, labels, note = texts()
     assert title == "Level 2, band 3" and len(labels) == 5
     share = bpy.context.window_manager.framelet_band_range.share
-    assert note == f"{share:.1f} % in this range" and share < 100
+    assert note == f"{share:.1f}% in this range" and share < 100
 
 
 def test_registering_takes_and_gives_back_the_handle():

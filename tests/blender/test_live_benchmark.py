@@ -35,3 +35,18 @@ def test_the_page_has_the_table(program):
     assert len(program.TABLE.findall(text)) == 1
     for name in ("Amount", "Live Equalizer, a gain", "Smooth of Blender, a factor"):
         assert f"| {name} |" in text
+
+
+def test_the_preview_is_measured(monkeypatch):
+    monkeypatch.setattr(sys, "path", [str(ROOT / "tests" / "benchmarks" / "live"), *sys.path])
+    import preview
+
+    found = preview.measure(400)
+    assert found["Vertices"] == pytest.approx(400, rel=0.1)
+    names = list(found)[1:]
+    assert all(wall > 0.0 and processor > 0.0 for wall, processor in map(found.get, names))
+    assert found["Strength 0.6: first picture"][1] < found["Strength 0.6: result"][1]
+    lines = preview.table([found]).splitlines()
+    assert len(lines) == 2 + len(names) and "400" not in lines[2]
+    text = preview.PAGE.read_text("utf-8")
+    assert len(preview.TABLE.findall(text)) == 1 and all(f"| {name} |" in text for name in names)

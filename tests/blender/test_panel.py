@@ -84,7 +84,7 @@ def test_the_noise_that_was_removed_has_a_line_for_what_there_is():
     plain = ["Noise", "0.02 to 0.05", "", "0.1 to 0.25 edges"]
     assert rows(sigma_low=0.02, sigma_high=0.05, sigma_low_edges=0.1, sigma_high_edges=0.25) == plain
     assert rows(width=0.39) == plain
-    width, spikes, clean = ["Width", "about 3.2 edges"], ["Spikes", "0.5 %"], ["Clean", "33.3 % stayed"]
+    width, spikes, clean = ["Width", "about 3.2 edges"], ["Spikes", "0.5%"], ["Clean", "33.3% stayed"]
     assert rows(width=3.21) == [*plain, *width]
     assert rows(spikes=0.5) == [*plain, *width, *spikes]
     assert rows(clean=100 / 3) == [*plain, *width, *spikes, *clean]
@@ -224,7 +224,7 @@ def test_volume_of_closed_meshes_and_number_of_objects():
     bpy.ops.object.framelet_denoise(preset="TRI_2")
     labels = draw(report_panels.VIEW3D_PT_framelet_last_run)["label"]
     assert labels[labels.index("Objects") + 1] == "2"
-    assert re.fullmatch(r"-\d+\.\d{2} %", labels[labels.index("Volume") + 1])
+    assert re.fullmatch(r"-\d+\.\d{2}%", labels[labels.index("Volume") + 1])
 
 
 def test_try_it_before_and_after():

@@ -81,7 +81,7 @@ def test_the_legend_says_so_in_three_digits(torus):
     bpy.ops.object.framelet_heat_map(tolerance=0.123456)
     _, labels, note = legend.legend_texts(bpy.context.scene, shown())
     share = 100.0 * (values <= np.float32(0.123456)).mean()
-    assert note == f"Green: up to 0.123 mm, {share:.3g} %"
+    assert note == f"Green: up to 0.123 mm, {share:.3g}%"
     assert all(len(label.strip("−").split()[0].replace(".", "").strip("0")) <= 3 for label in labels)
     tolerance = shown().tolerance / shown().maximum
     places = np.linspace(0.0, 1.0, 101)

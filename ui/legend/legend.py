@@ -55,12 +55,10 @@ def legend_texts(scene: bpy.types.Scene, shown: bpy.types.PropertyGroup) -> tupl
     """Return the title, the labels from the lowest value up, and the note of the legend."""
     values = tick_values(shown.minimum, shown.maximum, shown.is_signed)
     labels = value_texts(scene, values, shown.unit)
-    note = "" if shown.share >= 99.95 else iface_("{:.1f} % in this range").format(shown.share)
+    note = "" if shown.share >= 99.95 else iface_("{:.1f}% in this range").format(shown.share)
     if shown.tolerance:
         (tolerance,) = value_texts(scene, [shown.tolerance], shown.unit)
-        note = iface_("Green: up to {tolerance}, {share:.3g} %").format(
-            tolerance=tolerance, share=shown.green
-        )
+        note = iface_("Green: up to {tolerance}, {share:.3g}%").format(tolerance=tolerance, share=shown.green)
     return iface_(shown.title), labels, note
 
 

@@ -136,7 +136,7 @@ def _draw_range(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bpy
     lowest = f"−{length_text(context.scene, shown.maximum)}" if shown.is_signed else "0"
     draw_value(column, "Blue" if shown.is_signed else "Gray", lowest)
     draw_value(column, "Red" if shown.is_signed else "Violet", length_text(context.scene, shown.maximum))
-    draw_value(column, "Within", iface_("{:.1f} % of vertices").format(shown.share))
+    draw_value(column, "Within", iface_("{:.1f}% of vertices").format(shown.share))
 
 
 classes = (VIEW3D_PT_framelet_bands, VIEW3D_PT_framelet_equalizer)

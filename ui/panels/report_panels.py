@@ -43,7 +43,7 @@ class VIEW3D_PT_framelet_last_run(FrameletPanel, bpy.types.Panel):
         draw_value(column, "Moved", iface_("{:,} of {:,}").format(report.n_moved, report.n_vertices))
         draw_lengths(column, context.scene, "RMS", report.displacement_rms, report.displacement_rms_edges)
         draw_lengths(column, context.scene, "Largest", report.displacement_max, report.displacement_max_edges)
-        volume = f"{report.volume_change:+.2f} %"
+        volume = f"{report.volume_change:+.2f}%"
         row = column.row()
         row.alert = report.is_closed and abs(report.volume_change) > MUCH_VOLUME
         draw_value(row, "Volume", volume if report.is_closed else "Open mesh")
@@ -82,9 +82,9 @@ def draw_belief(
     if found.width > LEAST_WIDTH:
         draw_value(column, "Width", iface_("about {:.1f} edges").format(found.width))
     if found.spikes:
-        draw_value(column, "Spikes", f"{found.spikes:.2g} %")
+        draw_value(column, "Spikes", f"{found.spikes:.2g}%")
     if found.clean:
-        draw_value(column, "Clean", iface_("{:.3g} % stayed").format(found.clean))
+        draw_value(column, "Clean", iface_("{:.3g}% stayed").format(found.clean))
 
 
 class VIEW3D_PT_framelet_noise(FrameletPanel, bpy.types.Panel):

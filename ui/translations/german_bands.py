@@ -97,7 +97,7 @@ TEXTS = {
     "Red": "Rot",
     "Violet": "Violett",
     "Within": "Darin",
-    "{:.1f} % of vertices": "{:.1f} % der Punkte",
+    "{:.1f}% of vertices": "{:.1f} % der Punkte",
     # The range of colors
     "Range": "Bereich",
     "Which values get the last colors of the map; values beyond look the same as those": (
@@ -147,8 +147,8 @@ TEXTS = {
     "The width that gets the last color, in edge lengths: larger makes all colors paler": (
         "Die Breite mit der letzten Farbe, in Kantenlängen: größer macht alle Farben blasser"
     ),
-    "{:.1f} % in this range": "{:.1f} % in diesem Bereich",
-    "Green: up to {tolerance}, {share:.3g} %": "Grün: bis {tolerance}, {share:.3g} %",
+    "{:.1f}% in this range": "{:.1f} % in diesem Bereich",
+    "Green: up to {tolerance}, {share:.3g}%": "Grün: bis {tolerance}, {share:.3g} %",
     "What is at most this far off is green, in scene units: larger makes more green; 0 leaves green out": (
         "Was höchstens so weit abweicht, ist grün, in Szeneneinheiten: größer macht mehr grün; 0 lässt Grün weg"
     ),

@@ -119,7 +119,7 @@ TEXTS = {
     ),
     "Showing {names} before denoising": "Zustand von {names} vor dem Entrauschen",
     "Showing {names} after denoising": "Zustand von {names} nach dem Entrauschen",
-    "{title} of {names}: colors from {lowest} to {highest}, {share:.1f} % of all are within": (
+    "{title} of {names}: colors from {lowest} to {highest}, {share:.1f}% of all are within": (
         "{title} von {names}: Farben von {lowest} bis {highest}, {share:.1f} % aller Werte liegen darin"
     ),
     "Noise of {names}: {noise}": "Rauschen von {names}: {noise}",

@@ -24,7 +24,7 @@ TEXTS = {
     "about {:.1f} edges": "etwa {:.1f} Kanten",
     "Spikes": "Ausreißer",
     "Clean": "Sauber",
-    "{:.3g} % stayed": "{:.3g} % blieben",
+    "{:.3g}% stayed": "{:.3g} % blieben",
     "Removed": "Entfernt",
     "The noise is what automatic denoising took away, not an estimate": (
         "Das Rauschen ist, was das automatische Entrauschen wegnahm, keine Schätzung"
