@@ -34,7 +34,8 @@ def draw_preview(row: bpy.types.UILayout) -> None:
     if session is None:
         row.operator(OBJECT_OT_framelet_preview.bl_idname, icon="HIDE_OFF")
     else:
-        # The name says whose preview it is, as another object may be active; the icon is all that changes.
+        # The name says whose preview it is, as another object may be active: it gets most of the row.
+        row = row.split(factor=0.68, align=True)
         is_busy = not session.is_current and not session.message
         row.operator(
             OBJECT_OT_framelet_preview.bl_idname,
