@@ -88,12 +88,12 @@ fuzz: ## Read 5,000 damaged files, and as many manifests, reports and command li
 
 .PHONY: hunt-blender
 hunt-blender: ## Live 300 random lives in Blender, enable it 1,000 times, and denoise 200 times
-	FRAMELET_LIFE=300 FRAMELET_CYCLES=1000 FRAMELET_RUNS=200 $(ENVIRONMENT) run bpy-$(BLENDER) --timeout 3600 -- \
+	FRAMELET_LIFE=300 FRAMELET_CYCLES=1000 FRAMELET_RUNS=200 $(ENVIRONMENT) run bpy-$(BLENDER) --timeout $(HUNT_TIMEOUT) -- \
 	  $(PYTEST) tests/blender/test_life.py tests/blender/test_registration.py tests/blender/test_long_life.py
 
 .PHONY: kills
 kills: ## Kill batches at 100 random moments
-	FRAMELET_KILLS=100 $(ENVIRONMENT) run core --timeout $(TIMEOUT) -- $(PYTEST) tests/batch/test_kills.py
+	FRAMELET_KILLS=100 $(ENVIRONMENT) run core --timeout $(HUNT_TIMEOUT) -- $(PYTEST) tests/batch/test_kills.py
 
 .PHONY: test-training
 test-training: ## Train for a minute, and test the training
