@@ -73,9 +73,18 @@ hunt-meshes: ## Denoise 2,000 meshes that nobody would think of, by each propert
 	  tests/hunt
 
 .PHONY: coverage
-coverage: ## Measure which branches of core/ the tests take
-	$(ENVIRONMENT) run hunt --timeout $(HUNT_TIMEOUT) -- $(PYTEST) --cov --cov-report=term tests/core tests/hunt \
-	  tests/golden
+coverage: ## Measure which branches of core/ and operators/ the tests take
+	rm -rf build/coverage && mkdir -p build/coverage
+	COVERAGE_FILE="$(CURDIR)/build/coverage/core" $(ENVIRONMENT) run hunt --timeout $(HUNT_TIMEOUT) -- \
+	  $(PYTEST) --cov --cov-report= tests/core tests/hunt tests/golden
+	COVERAGE_FILE="$(CURDIR)/build/coverage/files" $(ENVIRONMENT) run hunt --timeout $(HUNT_TIMEOUT) -- \
+	  $(PYTEST) --cov --cov-report= tests/files tests/batch
+	COVERAGE_FILE="$(CURDIR)/build/coverage/blender" $(ENVIRONMENT) run hunt-bpy --timeout $(HUNT_TIMEOUT) -- \
+	  $(PYTEST) --cov --cov-report= tests/blender
+	$(ENVIRONMENT) run hunt -- -m coverage report --data-file build/coverage/core --include 'core/*' --fail-under 95
+	$(ENVIRONMENT) run hunt -- -m coverage combine --keep --data-file build/coverage/all build/coverage/files \
+	  build/coverage/blender
+	$(ENVIRONMENT) run hunt -- -m coverage report --data-file build/coverage/all --include 'operators/*' --fail-under 90
 
 .PHONY: mutants
 mutants: ## Change single operators and numbers, and see whether a test tells

@@ -34,6 +34,7 @@ UV_PYTHONS = VENVS / "uv-pythons"
 PYTHONS = {
     "core": ("3.11", "3.12", "3.13", "3.14"),
     "hunt": ("3.11", "3.12", "3.13", "3.14"),
+    "hunt-bpy": ("3.11",),
     "benchmarks": ("3.11", "3.12", "3.13", "3.14"),
     "bpy-4.2": ("3.11",),
     "bpy-4.5": ("3.11",),
@@ -208,7 +209,7 @@ def run(name: str, command: list[str], timeout: float | None) -> int:
     """
     with tempfile.TemporaryDirectory(prefix="framelet-") as user_folder:
         environment = {**os.environ, "PYTHONNOUSERSITE": "1"}
-        if name.startswith("bpy-"):
+        if "bpy" in name:
             # In these environments a failed import of bpy is an error, never a skipped test.
             environment.update(FRAMELET_REQUIRE_BLENDER="1", BLENDER_USER_RESOURCES=user_folder)
         process = subprocess.Popen(

@@ -134,8 +134,9 @@ def _straightest(
         squares = np.add(leap[0], leap[1], out=leap[0])
         squares += leap[2]
         np.sqrt(squares, out=squares)
-        if not squares.all():
-            squares[squares == 0.0] = 1.0
+        # Points that differ by rounding alone are one place, from which no direction leads away.
+        least = TIE * squares.max(axis=0)
+        squares[(squares <= least) | (length[one] <= least)] = np.inf
         cosine /= squares
         cosine *= 1.0 / TIE
         np.rint(cosine, out=cosine)

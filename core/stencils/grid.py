@@ -152,7 +152,7 @@ class Grid:
                 entries = connectivity.ring_offset[part, None] + np.arange(valence)
                 spokes = vertices[connectivity.ring[entries]].astype(np.float64) - vertices[part, None]
                 length = np.linalg.norm(spokes, axis=2, keepdims=True)
-                spokes /= np.where(length > 0, length, 1.0)
+                spokes /= np.where(length > TIE * length.max(axis=1, keepdims=True), length, np.inf)
                 cosine = np.rint(np.einsum("nic,njc->nij", spokes, spokes) / TIE)
                 cosine[:, np.arange(valence), np.arange(valence)] = np.inf
                 opposite[entries] = connectivity.ring_offset[part, None] + cosine.argmin(axis=2)

@@ -186,8 +186,8 @@ def _pair_ranks(
     spokes = points.take(rings, axis=1, mode="clip")
     spokes -= points.take(centers, axis=1)[:, None]
     length = np.sqrt(spokes[0] ** 2 + spokes[1] ** 2 + spokes[2] ** 2)
-    spokes /= np.where(length > 0, length, 1.0)
     reach = length.max(axis=0)
+    spokes /= np.where(length > TIE * reach, length, np.inf)  # a shorter one has its direction by rounding
     reach = 1.0 / np.where(reach > 0, 4.0 * TIE * reach, 1.0)
     length *= reach
     valence, n = rings.shape

@@ -141,3 +141,21 @@ def test_blocks_do_not_change_members(rng):
         blocked = ring_points_at(mesh, 2, 3, blocks)
     assert np.array_equal(plain.near, blocked.near)
     assert np.array_equal(plain.far, blocked.far)
+
+
+def test_points_in_one_place_but_for_rounding_lead_nowhere():
+    """Where vertices have the same neighbors, means put them into one place, and rounding chose a direction."""
+    mesh = triangle_grid(8, 9)
+    rng = np.random.default_rng(0)
+    points = noisy(mesh, rng).vertices
+    near = (9 * 4 + 4, 9 * 4 + 5), (9 * 2 + 4, 9 * 2 + 6)
+    for one, other in near:
+        points[other] = points[one]
+    chosen = []
+    for _ in range(8):
+        nudged = points.copy()
+        for _, other in near:
+            nudged[other] += 1e-15 * rng.normal(size=3)
+        found = ring_points_at(mesh.with_vertices(nudged), 1, 3)
+        chosen.append((found.near.tolist(), found.far.tolist()))
+    assert all(choice == chosen[0] for choice in chosen)
