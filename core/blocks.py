@@ -149,7 +149,7 @@ class Blocks:
         parts = self.run(lambda start, stop: start + np.flatnonzero(is_wanted(start, stop)), n_items)
         return np.concatenate(parts) if parts else np.zeros(0, np.intp)
 
-    def take(self, values: NDArray, index: NDArray[np.integer]) -> NDArray:
+    def take(self, values: NDArray[Any], index: NDArray[np.integer]) -> NDArray[Any]:
         """Return `values[index]`, shape (n, ...), looked up on threads; the indices are trusted."""
         values = np.ascontiguousarray(values)
         result = np.empty((len(index), *values.shape[1:]), values.dtype)

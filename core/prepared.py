@@ -300,7 +300,7 @@ def _key(settings: DenoiseSettings, dtype: DTypeLike) -> tuple[Any, ...]:
     return (settings.method, settings.boundary, np.dtype(dtype), *frame)
 
 
-def _is_same(first: NDArray, second: NDArray) -> bool:
+def _is_same(first: NDArray[Any], second: NDArray[Any]) -> bool:
     """Tell whether two arrays have the same type, shape and values."""
     return first is second or (first.dtype == second.dtype and np.array_equal(first, second))
 

@@ -8,7 +8,7 @@ from bpy.props import FloatProperty, IntProperty
 
 from .mesh_io import mesh_bridge
 from .preview import targets
-from .properties.setting_values import as_typed
+from .properties.region_values import as_typed
 from .reports.filled_reports import forget_estimate
 from .run.shape import check_shape, shape_of, write_shape
 

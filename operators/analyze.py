@@ -12,7 +12,7 @@ from .mesh_io import band_storage
 from .modifier import offsets
 from .preview import targets
 from .properties.band_settings import StoreMixin
-from .properties.setting_values import as_typed
+from .properties.region_values import as_typed
 from .properties.settings import FrameMixin, LevelsMixin
 
 

@@ -14,8 +14,8 @@ from .bands.transforms import equalizer_of
 from .mesh_io import mesh_bridge
 from .preview import targets
 from .properties.band_settings import EQUALIZER_NAMES, GAIN_NAMES, EqualizerMixin
+from .properties.region_values import as_typed
 from .properties.scene_units import displacement_in_scene, length_text
-from .properties.setting_values import as_typed
 from .properties.settings import FrameMixin
 from .reports.filled_reports import forget_estimate
 from .run.shape import check_shape, shape_of, write_shape

@@ -18,8 +18,8 @@ from .colors.heat_values import QUANTITIES, heat_values
 from .colors.viewport import hide_unused_colors, show_vertex_colors
 from .mesh_io import band_storage
 from .preview import targets
+from .properties.region_values import as_typed
 from .properties.scene_units import value_texts
-from .properties.setting_values import as_typed
 from .reports.filled_reports import fill_band_range
 from .run import run_memory
 from .shortage import shortage_told

@@ -19,7 +19,7 @@ from .modifier.recipes import DISPLACEMENT
 from .modifier.stack import find_modifier
 from .preview import targets
 from .properties.region_options import RegionOptions
-from .properties.setting_values import as_typed
+from .properties.region_values import as_typed
 from .run.shape import check_cage, check_shape, shape_of, write_shape
 
 if TYPE_CHECKING:

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from itertools import pairwise, starmap
+from typing import Any
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
@@ -61,11 +62,11 @@ class Means:
         """The number of each item inside, shape (n,)."""
         return self._place
 
-    def inward(self, field: NDArray) -> NDArray:
+    def inward(self, field: NDArray[Any]) -> NDArray[Any]:
         """Return a field of the items, shape (n, ...), as it is numbered inside."""
         return self._item_blocks.take(field, self._items)
 
-    def outward(self, field: NDArray) -> NDArray:
+    def outward(self, field: NDArray[Any]) -> NDArray[Any]:
         """Return a field that is numbered as inside, shape (n, ...), as the caller numbers it."""
         return self._item_blocks.take(field, self._place)
 
@@ -106,7 +107,7 @@ class Means:
         return result
 
 
-def in_one_array(parts: Sequence[NDArray], dtype: DTypeLike) -> list[NDArray]:
+def in_one_array(parts: Sequence[NDArray[Any]], dtype: DTypeLike) -> list[NDArray[Any]]:
     """Return copies of arrays that lie in one array.
 
     Small arrays that live long would lie between those that come and go, and keep their memory from going

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -145,6 +145,6 @@ class FaceGraph:
         """Call `kernel(start, stop)` on threads, for blocks of pairs, without the last."""
         self.blocks.run(kernel, self.n_pairs)
 
-    def in_graph_order(self, field: NDArray) -> NDArray:
+    def in_graph_order(self, field: NDArray[Any]) -> NDArray[Any]:
         """Return a field of the mesh's faces, last axis F, for the faces of the graph."""
         return field if self.order is None else field[..., self.order]

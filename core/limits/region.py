@@ -109,7 +109,7 @@ class Region:
             )
 
 
-def _check_weights(weights: NDArray) -> None:
+def _check_weights(weights: NDArray[Any]) -> None:
     """Raise RegionError unless these are numbers from 0 to 1, one for each vertex."""
     if weights.ndim != 1 or not np.issubdtype(weights.dtype, np.floating):
         raise RegionError(

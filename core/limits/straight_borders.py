@@ -11,6 +11,7 @@ chords as long as the fray asks for, go to where the courses on both sides meet,
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -91,7 +92,9 @@ def find_curves(boundary_neighbors: NDArray[np.integer]) -> BorderCurves:
     return BorderCurves(vertices, before, after, np.unique(curve, return_inverse=True)[1].astype(np.int64))
 
 
-def straightened(points: NDArray[np.floating], curves: BorderCurves, stays: NDArray[np.bool_]) -> NDArray:
+def straightened(
+    points: NDArray[np.floating], curves: BorderCurves, stays: NDArray[np.bool_]
+) -> NDArray[Any]:
     """Return the motion of border vertices that makes their borders smooth.
 
     Parameters

@@ -75,7 +75,7 @@ def flat_corners(corners: ArrayLike, offsets: ArrayLike) -> tuple[NDArray[np.int
     return flat, offset.astype(np.int32)
 
 
-def whole_numbers(numbers: NDArray, name: str) -> NDArray[np.integer]:
+def whole_numbers(numbers: NDArray[Any], name: str) -> NDArray[np.integer]:
     """Return an array of whole numbers, or raise MeshError if it holds anything else."""
     if numbers.size and numbers.dtype.kind not in "iu":
         raise MeshError(f"The {name} are {numbers.dtype}; vertices are given by whole numbers.")

@@ -113,7 +113,7 @@ def area_rows(
     return areas
 
 
-def fan_areas(arms: Sequence[Sequence[NDArray]] | Sequence[NDArray]) -> list[NDArray]:
+def fan_areas(arms: Sequence[Sequence[NDArray[Any]]] | Sequence[NDArray[Any]]) -> list[NDArray[Any]]:
     """Return twice the vector areas of faces with as many corners, by axis.
 
     Parameters
@@ -126,7 +126,7 @@ def fan_areas(arms: Sequence[Sequence[NDArray]] | Sequence[NDArray]) -> list[NDA
     list of three ndarrays
         Coordinates of the sums over the triangles of each fan, in the shape of the arms' coordinates.
     """
-    totals: list[NDArray] = []
+    totals: list[NDArray[Any]] = []
     for (a, b, c), (x, y, z) in pairwise(arms):
         parts = (b * z - c * y, c * x - a * z, a * y - b * x)
         if totals:

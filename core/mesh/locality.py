@@ -9,6 +9,7 @@ caches. Renumbering costs as much as a few passes over the mesh and is done for 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -52,7 +53,7 @@ class Reordering:
         moved = self.surface.with_vertices(vertices.take(self.vertex_order, axis=0))
         return Reordering(moved, self.vertex_order, self.face_order)
 
-    def vertices_back(self, values: NDArray) -> NDArray:
+    def vertices_back(self, values: NDArray[Any]) -> NDArray[Any]:
         """Return one value for each vertex, shape (N, ...), in the original order."""
         result = np.empty_like(values)
         result[self.vertex_order] = values

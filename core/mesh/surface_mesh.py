@@ -229,7 +229,7 @@ class SurfaceMesh:
         return cls.trusted(positions, corner, edge, offset, edges)
 
 
-def _is_frozen(array: NDArray) -> bool:
+def _is_frozen(array: NDArray[Any]) -> bool:
     """Tell whether neither an array nor what it is a view of can be written to."""
     owner: Any = array
     while isinstance(owner, np.ndarray):
@@ -239,7 +239,7 @@ def _is_frozen(array: NDArray) -> bool:
     return owner is None
 
 
-def _frozen(array: NDArray) -> NDArray:
+def _frozen(array: NDArray[Any]) -> NDArray[Any]:
     """Return an array that cannot be written to: itself, or a copy."""
     if not _is_frozen(array):
         array = array.copy()

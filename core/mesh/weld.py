@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,7 +40,7 @@ class Weld:
         """Vertices that went up in others."""
         return len(self.vertex) - self.surface.n_vertices
 
-    def least(self, values: NDArray) -> NDArray:
+    def least(self, values: NDArray[Any]) -> NDArray[Any]:
         """Return the least value of the vertices that became each welded vertex, shape (n,)."""
         order = np.argsort(self.vertex, kind="stable")
         begin = np.searchsorted(self.vertex[order], np.arange(self.surface.n_vertices))

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -193,7 +193,7 @@ def norms(bands: Bands, kind: str, groups: Groups = None) -> NDArray[np.float64]
     return np.sqrt(squares)
 
 
-def spread(values: NDArray, kind: str, n_bands: int, groups: Groups = None) -> NDArray:
+def spread(values: NDArray[Any], kind: str, n_bands: int, groups: Groups = None) -> NDArray[Any]:
     """Return values for norms, see `norms`, in a shape that multiplies the bands (3, H, n)."""
     if kind == "SCALAR":
         return values

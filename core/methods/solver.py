@@ -12,7 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 from ..blocks import Blocks
 from ..errors import MeshError, SettingError
 from ..transform import FrameTransform
-from .proximal import Bands, FirmThreshold, HardThreshold, OwnPenalty, Penalty, SoftThreshold
+from ..transform.level import Bands
+from .proximal import FirmThreshold, HardThreshold, OwnPenalty, Penalty, SoftThreshold
 from .split_bregman import Steps
 from .split_bregman import split_bregman as iterate
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..bands.band_values import BandValues, ColorRange, find_limit
 from ..mesh_io import band_storage
-from ..properties.setting_values import as_typed
+from ..properties.region_values import as_typed
 
 if TYPE_CHECKING:
     import numpy as np

@@ -119,7 +119,7 @@ def _says_unused(name: str, preset: str, method: str | None) -> str:
     return f"{option} has no effect with --preset {as_word(preset)}; use --preset {as_word(other)}."
 
 
-def _add_option(group: argparse._ArgumentGroup, item: Field, default: Any, default_text: str) -> None:
+def _add_option(group: argparse._ArgumentGroup, item: Field[Any], default: Any, default_text: str) -> None:
     """Add the option of a field."""
     group.add_argument(
         option_name(item.name),
@@ -131,7 +131,7 @@ def _add_option(group: argparse._ArgumentGroup, item: Field, default: Any, defau
     )
 
 
-def _value_type(item: Field) -> Callable[[str], Any]:
+def _value_type(item: Field[Any]) -> Callable[[str], Any]:
     """Return the function that reads the value of a field and checks it."""
     info: SettingInfo = item.metadata["info"]
     if info.choices:
@@ -166,7 +166,7 @@ def choice_type(identifiers: Iterable[str]) -> Callable[[str], str]:
     return identifier_of
 
 
-def _metavar(item: Field) -> str:
+def _metavar(item: Field[Any]) -> str:
     """Return what stands for the value in the help text."""
     info: SettingInfo = item.metadata["info"]
     if info.choices:
@@ -180,7 +180,7 @@ def choice_list(identifiers: Iterable[str]) -> str:
     return "{" + choices + "}" if len(choices) <= LONGEST_LIST else "NAME"
 
 
-def _help(item: Field, default_text: str) -> str:
+def _help(item: Field[Any], default_text: str) -> str:
     """Return label, description, defaults and choices of a field."""
     info: SettingInfo = item.metadata["info"]
     text = f"{info.description} (default: {default_text})"

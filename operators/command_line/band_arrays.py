@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ...core.settings import DenoiseSettings
 
@@ -33,7 +33,9 @@ numpy.load(..., allow_pickle=False) reads them.
 """The layout in words, for the help text."""
 
 
-def band_arrays(surface: SurfaceMesh, settings: DenoiseSettings, max_megabytes: float) -> dict[str, NDArray]:
+def band_arrays(
+    surface: SurfaceMesh, settings: DenoiseSettings, max_megabytes: float
+) -> dict[str, NDArray[Any]]:
     """Decompose a mesh and name what comes out.
 
     Parameters

@@ -32,7 +32,7 @@ SUFFIX = ".npz"
 MAX_MEGABYTES = 4000.0
 
 
-def add_command(subparsers: argparse._SubParsersAction) -> None:
+def add_command(subparsers: argparse._SubParsersAction[Any]) -> None:
     """Add the subcommand to the parser of the program."""
     parser = subparsers.add_parser(
         "bands",
@@ -162,7 +162,7 @@ def analyzed(
     return file.getvalue(), _describe(name, arrays)
 
 
-def _describe(name: str, arrays: dict[str, NDArray]) -> str:
+def _describe(name: str, arrays: dict[str, NDArray[Any]]) -> str:
     """Say what the bands of an object are."""
     parts = []
     for level in range(1, int(arrays["levels"]) + 1):

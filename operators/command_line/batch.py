@@ -25,7 +25,7 @@ from .batch_progress import BatchProgress
 from .messages import FAILURE, USAGE_ERROR, CommandError, Messages
 
 
-def add_command(subparsers: argparse._SubParsersAction) -> None:
+def add_command(subparsers: argparse._SubParsersAction[Any]) -> None:
     """Add the subcommand to the parser of the program."""
     parser = subparsers.add_parser(
         "batch",

@@ -7,7 +7,7 @@ from __future__ import annotations
 import argparse
 from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ...core.settings import DenoiseSettings
 from ..files.safe_write import Outputs
@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     from .mesh_work import Outcome
 
 
-def add_command(subparsers: argparse._SubParsersAction) -> None:
+def add_command(subparsers: argparse._SubParsersAction[Any]) -> None:
     """Add the subcommand to the parser of the program."""
     parser = subparsers.add_parser(
         "denoise",

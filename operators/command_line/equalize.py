@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import argparse
 from dataclasses import fields
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ...core.settings import DenoiseSettings
 from ..files.safe_write import Outputs
@@ -31,7 +31,7 @@ MOST_GAINS = next(
 )
 
 
-def add_command(subparsers: argparse._SubParsersAction) -> None:
+def add_command(subparsers: argparse._SubParsersAction[Any]) -> None:
     """Add the subcommand to the parser of the program."""
     parser = subparsers.add_parser(
         "equalize",

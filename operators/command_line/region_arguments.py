@@ -14,7 +14,7 @@ from ..properties.region_options import RegionOptions
 from .messages import USAGE_ERROR, CommandError
 
 
-def option_name(item: Field) -> str:
+def option_name(item: Field[Any]) -> str:
     """Return the option of a field; of a switch there is also ``--no-...``."""
     return f"--{item.name.replace('_', '-')}"
 
@@ -68,7 +68,7 @@ def region_options_from(arguments: argparse.Namespace) -> RegionOptions:
     return RegionOptions(**given)
 
 
-def _number_type(item: Field) -> Callable[[str], int | float]:
+def _number_type(item: Field[Any]) -> Callable[[str], int | float]:
     """Return the function that reads the value of a field and checks it."""
 
     read, wanted = (int, "a whole number") if item.type == "int" else (float, "a number")

@@ -4,13 +4,15 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
 from .mesh_file import FileError, MeshFile
 
 
-def triangles_of(face_offset: NDArray, corner_vertex: NDArray) -> NDArray[np.int64]:
+def triangles_of(face_offset: NDArray[Any], corner_vertex: NDArray[Any]) -> NDArray[np.int64]:
     """Return the faces of a surface as triangles, shape (T, 3); larger ones as fans around a corner.
 
     Examples

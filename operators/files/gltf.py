@@ -13,6 +13,7 @@ import base64
 import json
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 from urllib.parse import unquote
 
 import numpy as np
@@ -302,7 +303,9 @@ class GltfFile(MeshFile):
         return np.concatenate(points).astype(positions.dtype), np.arange(0, len(corner) + 1, 3), corner
 
 
-def new_file(positions: NDArray[np.floating], face_offset: NDArray, corner_vertex: NDArray) -> bytes:
+def new_file(
+    positions: NDArray[np.floating], face_offset: NDArray[Any], corner_vertex: NDArray[Any]
+) -> bytes:
     """Return a GLB file of a surface, in single precision; see `ply.new_file` for the parameters."""
     points = np.ascontiguousarray(positions, "<f4")
     corners = np.ascontiguousarray(triangles_of(face_offset, corner_vertex).reshape(-1), "<u4")

@@ -122,7 +122,7 @@ class Buffers:
             raise FileError(f"A view of {count:,} elements is larger than its buffer; the file is damaged.")
         return np.arange(count, dtype=np.int64) * stride + begin + int(self.begin[buffer])
 
-    def numbers(self, at: NDArray[np.int64], dtype: np.dtype, width: int) -> NDArray:
+    def numbers(self, at: NDArray[np.int64], dtype: np.dtype, width: int) -> NDArray[Any]:
         """Return stored numbers, shape (n, width); zeros where nothing is stored."""
         size = dtype.itemsize * width
         step = int(at[1] - at[0]) if len(at) > 1 else size
@@ -151,7 +151,7 @@ class Buffers:
         content[stored.at[chosen, None] + np.arange(size)] = numbers.view(np.uint8).reshape(-1, size)
 
 
-def as_stored(values: NDArray[np.float64], stored: Stored) -> NDArray:
+def as_stored(values: NDArray[np.float64], stored: Stored) -> NDArray[Any]:
     """Return values as the numbers that stand for them, shape (n, width)."""
     if stored.dtype.kind == "f":
         return values.astype(stored.dtype)

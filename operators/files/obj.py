@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import codecs
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -262,7 +263,9 @@ def _without_comments(letters: NDArray[np.uint8], start: NDArray[np.int64]) -> N
     return text.count_words(letters, start)
 
 
-def new_file(positions: NDArray[np.floating], face_offset: NDArray, corner_vertex: NDArray) -> bytes:
+def new_file(
+    positions: NDArray[np.floating], face_offset: NDArray[Any], corner_vertex: NDArray[Any]
+) -> bytes:
     """Return an OBJ file of a surface; see `ply.new_file` for the parameters."""
     form = b"v %.17g %.17g %.17g\n" if positions.dtype == np.float64 else b"v %.9g %.9g %.9g\n"
     pieces = [b"# Framelet\n", (form * len(positions)) % tuple(positions.reshape(-1).tolist())]

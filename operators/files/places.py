@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -52,7 +54,7 @@ def merge_equal(points: NDArray[np.floating]) -> tuple[NDArray[np.int64], NDArra
     return rank[group], first[by_first]
 
 
-def _differs(rows: NDArray, has_other_key: NDArray[np.bool_]) -> NDArray[np.bool_] | None:
+def _differs(rows: NDArray[Any], has_other_key: NDArray[np.bool_]) -> NDArray[np.bool_] | None:
     """Return which sorted rows differ from the one before, shape (n,); None if rows with one key differ."""
     differs = (rows[1:] != rows[:-1]).any(axis=1)
     if (differs & ~has_other_key).any():

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import re
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -206,7 +207,9 @@ class PlyFile(MeshFile):
             return normals * np.where(is_unit, 1.0, length)[:, None], is_new
 
 
-def new_file(positions: NDArray[np.floating], face_offset: NDArray, corner_vertex: NDArray) -> bytes:
+def new_file(
+    positions: NDArray[np.floating], face_offset: NDArray[Any], corner_vertex: NDArray[Any]
+) -> bytes:
     """Return a binary PLY file of a surface; coordinates are double if the positions are float64.
 
     Parameters

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import struct
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -124,7 +125,7 @@ class BinaryLayout:
                 last = last + size
         return Table(element, columns, lengths, at)
 
-    def values(self, at: NDArray[np.int64], kind: str) -> NDArray:
+    def values(self, at: NDArray[np.int64], kind: str) -> NDArray[Any]:
         """Return the values at some bytes, shape (n,)."""
         dtype = np.dtype(self._order + kind)
         if not len(at):
@@ -146,7 +147,7 @@ class BinaryLayout:
         within = np.arange(int(lengths.sum())) - np.repeat(begin, lengths)
         return self._gathered(np.repeat(at, lengths) + within * dtype.itemsize, dtype).astype(np.int64)
 
-    def _gathered(self, at: NDArray[np.int64], dtype: np.dtype) -> NDArray:
+    def _gathered(self, at: NDArray[np.int64], dtype: np.dtype) -> NDArray[Any]:
         """Return values that begin at any bytes."""
         parts = self._bytes[at[:, None] + np.arange(dtype.itemsize)]
         return np.ascontiguousarray(parts).view(dtype).reshape(-1)

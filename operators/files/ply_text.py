@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -125,7 +127,7 @@ class TextLayout:
             self._numbers = text.numbers(self._letters, np.float64, len(self._start))
         return self._numbers
 
-    def values(self, at: NDArray[np.int64], kind: str) -> NDArray:
+    def values(self, at: NDArray[np.int64], kind: str) -> NDArray[Any]:
         """Return the values of some words, shape (n,)."""
         numbers = self._all()[at]
         with np.errstate(over="ignore", invalid="ignore"):

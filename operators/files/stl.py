@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -177,7 +179,9 @@ def _normals(triangles: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.divide(normals, length, out=np.zeros_like(normals), where=length > 0.0)
 
 
-def new_file(positions: NDArray[np.floating], face_offset: NDArray, corner_vertex: NDArray) -> bytes:
+def new_file(
+    positions: NDArray[np.floating], face_offset: NDArray[Any], corner_vertex: NDArray[Any]
+) -> bytes:
     """Return a binary STL file of a surface, in single precision; see `ply.new_file` for the parameters.
 
     Faces with more than three corners become fans of triangles.

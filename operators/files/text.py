@@ -10,6 +10,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
@@ -59,7 +60,9 @@ class Block:
         found &= self.letters[np.minimum(self.first + len(keyword), n - 1)] <= _SPACE
         return found
 
-    def of_lines(self, lines: NDArray[np.bool_], keyword_length: int) -> tuple[NDArray, NDArray, NDArray]:
+    def of_lines(
+        self, lines: NDArray[np.bool_], keyword_length: int
+    ) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any]]:
         """Return the letters of some lines without their keyword, where each begins, and its length."""
         start, stop = self.start[lines], self.stop[lines]
         first = self.first[lines]
@@ -130,7 +133,7 @@ def count_words(letters: NDArray[np.uint8], start: NDArray[np.int64]) -> NDArray
     return np.add.reduceat(word_starts(letters), start, dtype=np.int64)
 
 
-def numbers(letters: NDArray[np.uint8] | bytes, dtype: DTypeLike, n_expected: int) -> NDArray:
+def numbers(letters: NDArray[np.uint8] | bytes, dtype: DTypeLike, n_expected: int) -> NDArray[Any]:
     """Return the numbers of a text, shape (n_expected,).
 
     Raises

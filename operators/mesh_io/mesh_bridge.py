@@ -13,11 +13,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import bmesh
 import bpy
 
+from .own_names import names_refusal
 from .shape_keys import active_key, dependent_keys, read_key_points, write_key_points, write_positions
 
 if TYPE_CHECKING:
@@ -90,7 +91,7 @@ def refusal(obj: bpy.types.Object | None) -> str | None:
     key = obj.active_shape_key
     if key is not None and key.lock_shape:
         return f"The active shape key ‘{key.name}’ of {name} is locked; unlock it or choose another one."
-    return faces_refusal(obj)
+    return names_refusal(obj) or faces_refusal(obj)
 
 
 def read_surface(obj: bpy.types.Object) -> SurfaceMesh:
@@ -338,7 +339,7 @@ def read_flag(mesh: bpy.types.Mesh, name: str, *, of_faces: bool = False) -> NDA
     return values
 
 
-def read_edge_values(mesh: bpy.types.Mesh, name: str, dtype: str) -> NDArray:
+def read_edge_values(mesh: bpy.types.Mesh, name: str, dtype: str) -> NDArray[Any]:
     """Read an attribute of edges, shape (E,); all false or 0 where there is none of this name."""
     import numpy as np
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from ..properties.scene_units import linear_part
 from . import mesh_bridge
 from .face_sets import vertices_of_face_set
+from .shape_keys import active_key
 
 if TYPE_CHECKING:
     import bpy
@@ -56,7 +57,7 @@ def read_region(obj: bpy.types.Object, options: RegionOptions) -> RegionRead:
 
     is_edited = obj.data.is_editmode
     with mesh_bridge.readable_mesh(obj) as mesh:
-        surface = mesh_bridge.read_arrays(mesh, None if is_edited else mesh_bridge.active_key(obj))
+        surface = mesh_bridge.read_arrays(mesh, None if is_edited else active_key(obj))
         movable = _movable(obj, mesh, surface, is_edited, options)
         if options.face_set:
             movable = _in_face_set(obj, mesh, surface, options.face_set, movable)

@@ -7,6 +7,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ..mesh_io import mesh_bridge
+from ..mesh_io.own_names import names_refusal
 from . import attributes
 from .inputs import get_input, set_input
 from .node_groups import ON
@@ -31,7 +32,7 @@ def refusal(obj: bpy.types.Object) -> str | None:
         return reason
     if not obj.is_editable:
         return f"‘{obj.name}’ is linked, so that it cannot get a modifier; make it local first."
-    return mesh_bridge.faces_refusal(obj)
+    return names_refusal(obj) or mesh_bridge.faces_refusal(obj)
 
 
 def store_displacement(

@@ -11,7 +11,7 @@ from ...core.settings.setting_info import SettingInfo
 from .region_options import RegionOptions
 
 
-def _region_property(item: Field) -> Any:
+def _region_property(item: Field[Any]) -> Any:
     """Return the Blender property of a field."""
     info: SettingInfo = item.metadata["info"]
     common: dict[str, Any] = {

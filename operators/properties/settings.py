@@ -75,7 +75,7 @@ def _preset_property() -> Any:
     )
 
 
-def setting_property(item: Field, **options: Any) -> Any:
+def setting_property(item: Field[Any], **options: Any) -> Any:
     """Return the Blender property of a dataclass field; `options` add to those that the field gives."""
     info: SettingInfo = item.metadata["info"]
     common: dict[str, Any] = {

@@ -12,7 +12,7 @@ Nothing here knows Blender, so that any thread may run it.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..properties.scene_units import displacement_by, length_by
 from .denoise_job import DenoiseJob, DenoiseOutcome, MeasuredReport
@@ -265,7 +265,9 @@ def _region(members: Sequence[Member], weldable: NDArray[np.bool_], near: float)
     )
 
 
-def _combined(members: Sequence[Member], values: Sequence[NDArray | None], default: object) -> NDArray | None:
+def _combined(
+    members: Sequence[Member], values: Sequence[NDArray[Any] | None], default: object
+) -> NDArray[Any] | None:
     """Return one value for each vertex of all copies, shape (n,); None if no job has any."""
     import numpy as np
 

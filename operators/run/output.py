@@ -11,6 +11,7 @@ from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..mesh_io import custom_normals, mesh_bridge
+from ..mesh_io.shape_keys import active_key
 from ..modifier import displacement
 from ..modifier.multires import find_multires, finest_level, multires_refusal, reshape
 from ..modifier.offsets import remove_modifier
@@ -208,7 +209,7 @@ def _write_key(
     others of earlier runs are set to 0, since two results at once are too much.
     """
     notes = [note] if note else []
-    base = mesh_bridge.active_key(obj)
+    base = active_key(obj)
     if base is None:
         base = obj.shape_key_add(name="Basis", from_mix=False)
     blocks = obj.data.shape_keys.key_blocks

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import bpy
 
 from ..mesh_io import mesh_bridge
+from ..mesh_io.shape_keys import active_key
 from ..modifier.multires import finest_level, level_object
 
 if TYPE_CHECKING:
@@ -34,7 +35,7 @@ class Mark(NamedTuple):
 
 def mark_of(obj: bpy.types.Object) -> Mark:
     """Return what to recognize an object by."""
-    key = mesh_bridge.active_key(obj)
+    key = active_key(obj)
     key_name = "" if key is None else key.name
     return Mark(obj.name, obj.session_uid, obj.data.session_uid, obj.mode, key_name, finest_level(obj))
 
@@ -73,7 +74,7 @@ def what_changed(mark: Mark, surface: SurfaceMesh, *, in_detail: bool = False) -
         return f"{name} got another mesh"
     if obj.mode != mark.mode:
         return f"The mode of {name} was changed"
-    key = mesh_bridge.active_key(obj)
+    key = active_key(obj)
     if mark.key_name != ("" if key is None else key.name):
         return f"Another shape key of {name} became active"
     if mark.level != finest_level(obj):

@@ -144,7 +144,7 @@ def test_blocks_do_not_change_members(rng):
 
 
 def test_points_in_one_place_but_for_rounding_lead_nowhere():
-    """Where vertices have the same neighbors, means put them into one place, and rounding chose a direction."""
+    """Means put vertices that have the same neighbors into one place; rounding chose a direction there."""
     mesh = triangle_grid(8, 9)
     rng = np.random.default_rng(0)
     points = noisy(mesh, rng).vertices
