@@ -92,13 +92,14 @@ mutants: ## Change single operators and numbers, and see whether a test tells
 
 .PHONY: fuzz
 fuzz: ## Read 5,000 damaged files, and as many manifests, reports and command lines
-	FRAMELET_FUZZ=5000 $(ENVIRONMENT) run core --timeout $(HUNT_TIMEOUT) -- $(PYTEST) tests/files/test_fuzz.py \
-	  tests/files/test_fuzz_words.py
+	FRAMELET_FUZZ=5000 $(ENVIRONMENT) run core --timeout $(HUNT_TIMEOUT) -- $(PYTEST) -o faulthandler_timeout=0 \
+	  tests/files/test_fuzz.py tests/files/test_fuzz_words.py
 
 .PHONY: hunt-blender
-hunt-blender: ## Live 300 random lives in Blender, enable it 1,000 times, and denoise 200 times
-	FRAMELET_LIFE=300 FRAMELET_CYCLES=1000 FRAMELET_RUNS=200 $(ENVIRONMENT) run bpy-$(BLENDER) --timeout $(HUNT_TIMEOUT) -- \
-	  $(PYTEST) tests/blender/test_life.py tests/blender/test_registration.py tests/blender/test_long_life.py
+hunt-blender: ## Live 300 random lives in Blender, alter 1,000 stored bands, enable it 1,000 times, denoise 200 times
+	FRAMELET_LIFE=300 FRAMELET_CYCLES=1000 FRAMELET_RUNS=200 FRAMELET_FUZZ=1000 $(ENVIRONMENT) run bpy-$(BLENDER) --timeout $(HUNT_TIMEOUT) -- \
+	  $(PYTEST) -o faulthandler_timeout=0 tests/blender/test_life.py tests/blender/test_fuzz_bands.py \
+	  tests/blender/test_registration.py tests/blender/test_long_life.py
 
 .PHONY: kills
 kills: ## Kill batches at 100 random moments

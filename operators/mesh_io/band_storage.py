@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from ...core.settings import DenoiseSettings
 from ..properties.setting_values import FRAME_NAMES
 from .mesh_bridge import ownership_refusal
+from .own_names import remove_attribute
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -194,7 +195,7 @@ def write_numbers(obj: bpy.types.Object, name: str, values: NDArray[np.floating]
         return
     attribute = mesh.attributes.get(name)
     if attribute is not None and (attribute.data_type, attribute.domain) != ("FLOAT", "POINT"):
-        mesh.attributes.remove(attribute)
+        remove_attribute(mesh, name)
         attribute = None
     attribute = attribute or mesh.attributes.new(name, "FLOAT", "POINT")
     attribute.data.foreach_set("value", np.ascontiguousarray(values, np.float32))
@@ -223,7 +224,7 @@ def write_colors(
         if attribute is None:
             continue
         if other != name or (attribute.data_type, attribute.domain) != ("FLOAT_COLOR", domain):
-            mesh.attributes.remove(attribute)
+            remove_attribute(mesh, other)
     if name not in mesh.attributes:
         mesh.color_attributes.new(name, "FLOAT_COLOR", domain)
     mesh.attributes[name].data.foreach_set("color", colors.reshape(-1))
@@ -259,9 +260,7 @@ def remove_noise(mesh: bpy.types.Mesh) -> None:
 def _remove(mesh: bpy.types.Mesh, names: Iterable[str]) -> None:
     """Remove attributes by name, where they are there."""
     for name in names:
-        attribute = mesh.attributes.get(name)
-        if attribute is not None:
-            mesh.attributes.remove(attribute)
+        remove_attribute(mesh, name)
 
 
 def remove_object_colors(obj: bpy.types.Object) -> None:

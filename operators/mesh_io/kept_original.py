@@ -16,6 +16,8 @@ from typing import TYPE_CHECKING
 import bmesh
 import bpy
 
+from .own_names import remove_attribute
+
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
@@ -53,9 +55,7 @@ def forget(mesh: bpy.types.Mesh) -> None:
                 layers.remove(layers[name])
         return
     for name in NAMES:
-        attribute = mesh.attributes.get(name)
-        if attribute is not None:
-            mesh.attributes.remove(attribute)
+        remove_attribute(mesh, name)
 
 
 def put_back(mesh: bpy.types.Mesh) -> bool:

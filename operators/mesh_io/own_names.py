@@ -29,3 +29,14 @@ def names_refusal(obj: bpy.types.Object) -> str | None:
                 "data; rename the group."
             )
     return None
+
+
+def remove_attribute(mesh: bpy.types.Mesh, name: str) -> None:
+    """Remove an attribute, where it is there, and never a vertex group.
+
+    Blender removes by name, and takes the vertex group if there is one of the same name.
+    """
+    attribute = mesh.attributes.get(name)
+    if attribute is not None:
+        attribute.name = f"{name} away"
+        mesh.attributes.remove(attribute)

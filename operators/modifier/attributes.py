@@ -10,6 +10,7 @@ import bmesh
 
 from ..mesh_io import mesh_bridge
 from ..mesh_io.band_storage import topology_fingerprint
+from ..mesh_io.own_names import remove_attribute
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -90,9 +91,7 @@ def remove_attributes(mesh: bpy.types.Mesh, names: Iterable[str]) -> None:
                     layers.remove(layers[name])
         return
     for name in names:
-        attribute = mesh.attributes.get(name)
-        if attribute is not None:
-            mesh.attributes.remove(attribute)
+        remove_attribute(mesh, name)
     mesh.update()
 
 
@@ -130,6 +129,6 @@ def _free_attribute(mesh: bpy.types.Mesh, name: str, kind: str) -> bpy.types.Att
     """Return an attribute of the vertices; one of that name but of another kind is removed."""
     attribute = mesh.attributes.get(name)
     if attribute is not None and (attribute.data_type, attribute.domain) != (kind, "POINT"):
-        mesh.attributes.remove(attribute)
+        remove_attribute(mesh, name)
         attribute = None
     return attribute or mesh.attributes.new(name, kind, "POINT")

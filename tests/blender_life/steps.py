@@ -253,7 +253,8 @@ def settings(world):
 def _arguments(world):
     """Return arguments as the sidebar hands them over, or none, or a preset."""
     properties = bpy.context.scene.framelet
-    names = [item.identifier for item in properties.bl_rna.properties]
+    known = bpy.ops.object.framelet_denoise.get_rna_type().properties
+    names = [item.identifier for item in properties.bl_rna.properties if item.identifier in known]
     if world.dice.random() < 0.5:
         found = {each: getattr(properties, each) for each in names if each not in ("rna_type", "name")}
         if properties.preset != "CUSTOM":  # a preset and the values beside it are set in turn
