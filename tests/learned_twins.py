@@ -151,7 +151,7 @@ def slow_features(mesh, means, scales, residual=None, log_strength=0.0, least_is
     of_pairs = np.zeros((len(pairs), 7))
     for number, (f, g, _) in enumerate(pairs):
         unit, arms = (length[f] + length[g]) / 2, centroids[g] - centroids[f]
-        far = np.sqrt((arms**2).sum(axis=1) + 1e-20)
+        far = np.maximum(np.sqrt((arms**2).sum(axis=1)), 1e-3 * unit)
         of_pairs[number, 0] = np.log(far[0] / unit + 0.01)
         of_pairs[number, 1] = abs(np.log((areas[f, 0] + FLOOR) / (areas[g, 0] + FLOOR)))
         for k in range(3):

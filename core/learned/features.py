@@ -154,7 +154,8 @@ def find_features(
         jump += FLOOR
         np.log(jump, out=jump)
         jumps[start:stop, :n_bands] = jump[:, :n_bands]
-        distance += np.float32(1e-20)
+        # Faces in the same place, as doubled ones are, lie in no direction from each other.
+        np.maximum(distance, (np.float32(1e-3) * unit[:, None]) ** 2 + np.float32(1e-20), out=distance)
         np.sqrt(distance, out=distance)
         bend /= distance
         part = pairs[start:stop]

@@ -2,14 +2,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Moving, turning, scaling and renumbering any mesh commute with denoising it."""
 
+from itertools import pairwise
+
 import numpy as np
 from checks import lengths, random_rotation
-from framelet.core import FrameletError, denoise
+from framelet.core import DenoiseSettings, FrameletError, denoise
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from stars import relabeled
 
-from .generated import SEEDS, TAME, denoise_settings, meshes, one_sentence
+from .generated import SEEDS, SHAPES, TAME, denoise_settings, meshes, one_sentence
 from .profile import examples
 
 ROUNDING = 1e-6
@@ -64,3 +66,20 @@ def test_a_changed_mesh_has_the_changed_result(mesh, settings, change, seed):
         assert np.median(apart) <= SINGLE * edge
     else:
         assert apart.max() <= ROUNDING * edge
+
+
+def test_faces_in_one_place_lie_in_no_direction_from_each_other():
+    """Two faces have the same vertices; rounding chose the direction between them, and all of the result."""
+    mesh = SHAPES["soup"](np.random.default_rng(0))
+    faces = [mesh.corner_vertex[a:b].tolist() for a, b in pairwise(mesh.face_offset)]
+    assert faces[0] == faces[12]
+    rng = np.random.default_rng(0)
+    mesh = mesh.with_vertices(mesh.vertices + rng.normal(0, 0.1, mesh.vertices.shape))
+    settings = DenoiseSettings(noise="WIDE", passes=3, threads=1)
+    expected = denoise(mesh, settings, dtype=np.float64).vertices
+    ends = mesh.vertices[mesh.edges]
+    edge = lengths(ends[:, 0] - ends[:, 1]).mean()
+    for _ in range(6):
+        other, back = moved_mesh("turned", mesh, rng)
+        found = back(denoise(other, settings, dtype=np.float64).vertices)
+        assert lengths(found - expected).max() <= 0.01 * edge
