@@ -11,7 +11,7 @@ from ..modifier import attributes
 from ..modifier.node_groups import MASK
 from ..modifier.offsets import offset_of, remove_modifier
 from ..modifier.recipes import DISPLACEMENT, EQUALIZER, equalizer_recipe, level_name, recipe_of
-from ..modifier.stack import attach, find_modifier
+from ..modifier.stack import attach, find_modifier, place_refusal
 from ..run.shape import check_cage
 from .transforms import equalizer_of
 
@@ -57,6 +57,9 @@ def make_live(
     check_cage(obj, "bands that are kept", "press Equalize, or ")
     if obj.mode != "OBJECT":
         raise ValueError(f"‘{obj.name}’: the live equalizer is made in Object Mode; leave the mode first.")
+    reason = place_refusal(obj, EQUALIZER)
+    if reason is not None:
+        raise ValueError(reason)
     cage = mesh_bridge.read_surface(obj)
     added = offset_of(obj, DISPLACEMENT)
     surface = cage if added is None else cage.with_vertices(cage.vertices + added)

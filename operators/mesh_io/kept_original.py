@@ -36,7 +36,8 @@ def keep(mesh: bpy.types.Mesh, original: NDArray[np.float32], shown: NDArray[np.
     """Keep the original positions, shape (N, 3), of a mesh in Object Mode, and what it shows instead."""
     for name, positions in zip(NAMES, (original, shown), strict=True):
         attribute = mesh.attributes.get(name)
-        if attribute is None:
+        if attribute is None or (attribute.data_type, attribute.domain) != ("FLOAT_VECTOR", "POINT"):
+            remove_attribute(mesh, name)
             attribute = mesh.attributes.new(name, "FLOAT_VECTOR", "POINT")
         attribute.data.foreach_set("vector", positions.reshape(-1))
 

@@ -12,7 +12,7 @@ from . import attributes
 from .inputs import get_input, set_input
 from .node_groups import ON
 from .recipes import AMOUNT, DENOISE_RECIPE, DISPLACEMENT
-from .stack import attach, find_modifier
+from .stack import attach, find_modifier, place_refusal
 
 if TYPE_CHECKING:
     import bpy
@@ -32,7 +32,7 @@ def refusal(obj: bpy.types.Object) -> str | None:
         return reason
     if not obj.is_editable:
         return f"‘{obj.name}’ is linked, so that it cannot get a modifier; make it local first."
-    return names_refusal(obj) or mesh_bridge.faces_refusal(obj)
+    return names_refusal(obj) or place_refusal(obj, DISPLACEMENT) or mesh_bridge.faces_refusal(obj)
 
 
 def store_displacement(

@@ -17,6 +17,9 @@ from .node_groups import Recipe, kind_of, remove_unused, shared_group
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
+FIRST = ("MULTIRES", "SOFT_BODY")
+"""Types of modifiers that take the vertices of the mesh itself, so that Blender lets no other before them."""
+
 
 def find_modifier(obj: bpy.types.Object | None, kind: str) -> bpy.types.Modifier | None:
     """Return the first modifier of a kind, a group's kind up to its first space; None if there is none."""
@@ -66,6 +69,18 @@ def attach(
     found = find_modifier(obj, recipe.kind.partition(" ")[0])
     assert found is not None
     return found
+
+
+def place_refusal(obj: bpy.types.Object, kind: str) -> str | None:
+    """Say in one sentence why an object of the mesh has no place for a modifier of a kind; None if all do."""
+    for each in _users(obj.data):
+        first = next((other for other in each.modifiers if other.type in FIRST), None)
+        if first is not None and find_modifier(each, kind) is None:
+            return (
+                f"The modifier ‘{first.name}’ of ‘{each.name}’ must be the first one, so that there is no "
+                "place for that of Framelet; apply or remove it first."
+            )
+    return None
 
 
 def detach(obj: bpy.types.Object, kind: str) -> bool:

@@ -19,6 +19,7 @@ from drawing import draw
 from framelet.operators.mesh_io import mesh_bridge
 from framelet.operators.modifier.inputs import set_input
 from framelet.operators.modifier.node_groups import KIND
+from framelet.operators.preview import current_preview
 from framelet.ui.panels import band_panels
 
 N_MESHES = int(os.environ.get("FRAMELET_FUZZ", "30"))
@@ -236,3 +237,28 @@ def test_clear_takes_no_vertex_group(make_object):
         obj.vertex_groups.new(name=name)
     assert tried("clear")
     assert obj.vertex_groups.keys() == groups and ours(obj) == []
+
+
+@pytest.mark.parametrize("kind", ["MULTIRES", "SOFT_BODY"])
+def test_a_modifier_that_must_be_the_first_is_named(make_object, kind):
+    """Blender lets none before it: the live equalizer ended in a traceback, and left attributes."""
+    obj = make_object(meshes.noisy(meshes.quad_torus(), np.random.default_rng(0)), "Torus")
+    obj.modifiers.new("Own", kind)
+    names = [item.name for item in obj.data.attributes]
+    for name, arguments in (
+        ("live_equalizer", {}),
+        ("denoise", {"preset": "POSITIONS", "output": "MODIFIER"}),
+    ):
+        with pytest.raises(RuntimeError, match="The modifier ‘Own’ of ‘Torus’ must be the first one"):
+            getattr(bpy.ops.object, f"framelet_{name}")(**arguments)
+        assert [item.name for item in obj.data.attributes] == names
+        assert [each.name for each in obj.modifiers] == ["Own"]
+    assert tried("denoise", preset="POSITIONS", output="IN_PLACE")
+
+
+def test_a_preview_takes_the_place_of_attributes_of_other_kinds(make_object):
+    obj = make_object(meshes.noisy(meshes.quad_torus(), np.random.default_rng(0)), "Torus")
+    obj.data.attributes.new(".framelet_original", "FLOAT", "EDGE")
+    assert tried("preview")
+    current_preview.stop_preview()
+    assert ".framelet_original" not in obj.data.attributes
