@@ -12,6 +12,9 @@ from ..errors import MeshError
 from .geometry import mean_edge_length
 from .surface_mesh import SurfaceMesh
 
+ROOM = 8.0
+"""How far a coordinate must be from the largest number, as a factor: a result may lie farther out."""
+
 
 def check_positions(surface: SurfaceMesh) -> None:
     """Raise MeshError, in one sentence, if a mesh has no vertices or faces, or a position is not finite."""
@@ -29,6 +32,12 @@ def check_positions(surface: SurfaceMesh) -> None:
             "is not a finite point" if len(wrong) == 1 else f"and {len(wrong) - 1} more are not finite points"
         )
         raise MeshError(f"Vertex {wrong[0]} at ({position}) {count}; delete or move it first.")
+    farthest = float(max(surface.vertices.max(), -surface.vertices.min()))
+    if farthest > float(np.finfo(surface.vertices.dtype).max) / ROOM:
+        raise MeshError(
+            f"The mesh reaches to a coordinate of {farthest:.3g}, where there are hardly larger numbers; "
+            "scale it down first."
+        )
 
 
 def check_surface(

@@ -78,8 +78,12 @@ def displacement_by(
         squares += moved[2]
         return float(squares.sum()), float(squares.max())
 
+    def quietly(start: int, stop: int) -> tuple[float, float]:
+        with np.errstate(invalid="ignore", over="ignore"):  # positions that were not finite before
+            return measure(start, stop)
+
     with Blocks(n_threads) as blocks:
-        sums, largest = zip(*blocks.run(measure, len(after)), strict=True)
+        sums, largest = zip(*blocks.run(quietly, len(after)), strict=True)
     return float(np.sqrt(sum(sums) / len(after))), float(np.sqrt(max(largest)))
 
 

@@ -5,10 +5,10 @@
 import numpy as np
 import pytest
 from checks import TRIANGLE_PRESETS, preset_settings, wild_mesh
-from framelet.core import PRESETS, SurfaceMesh, add_noise, denoise
+from framelet.core import PRESETS, MeshError, SurfaceMesh, add_noise, denoise
 from framelet.core.blocks import BLOCK_SIZE
 from mesh_files import mesh_files, read_mesh
-from meshes import MESHES, bow_tie, clean_soup, faces_of, noisy, pyramid, soup
+from meshes import MESHES, bow_tie, clean_soup, faces_of, noisy, pyramid, soup, triangle_torus
 
 PRESET = pytest.mark.parametrize("preset", TRIANGLE_PRESETS)
 BOUNDARY = pytest.mark.parametrize("boundary", ["FIXED", "ALONG", "FREE"])
@@ -140,3 +140,14 @@ def test_faces_that_name_one_vertex_only():
         result = denoise(mesh, PRESETS[preset].settings)
         assert np.isfinite(result.vertices).all()
         assert np.allclose(result.vertices[3], mesh.vertices[3], rtol=0, atol=1e-6)
+
+
+@pytest.mark.parametrize("preset", ["AUTO", "TRI_2", "BILATERAL"])
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_coordinates_near_the_largest_number_are_refused(preset, dtype):
+    """A result that lay farther out was infinite."""
+    mesh = noisy(triangle_torus(), np.random.default_rng(0))
+    vertices = mesh.vertices.astype(dtype)
+    vertices[5] = 0.9 * np.finfo(dtype).max
+    with pytest.raises(MeshError, match="hardly larger numbers; scale it down"):
+        denoise(mesh.with_vertices(vertices), PRESETS[preset].settings)

@@ -4,7 +4,7 @@
 
 import numpy as np
 import pytest
-from framelet.core.methods.proximal import SHRINKAGES, SoftThreshold
+from framelet.core.methods.proximal import SHRINKAGES, FirmThreshold, HardThreshold, SoftThreshold
 from twins import shrunk
 
 
@@ -111,3 +111,10 @@ def test_wrong_arguments_are_refused(coefficients):
 @pytest.mark.parametrize("kind", ["BANDS", "VECTOR", "SCALAR"])
 def test_vertices_without_bands_stay_without(kind):
     assert shrink(np.zeros((3, 0, 5)), 1.0, kind).shape == (3, 0, 5)
+
+
+def test_thresholds_grow_with_the_step():
+    bands = np.array([2.0, 3.0, -9.0]).reshape(3, 1, 1)
+    assert HardThreshold(1.0, "SCALAR")(bands, step=4.0).ravel().tolist() == [0.0, 3.0, -9.0]
+    assert SoftThreshold(0.5, "SCALAR")(bands, step=4.0).ravel().tolist() == [0.0, 1.0, -7.0]
+    assert FirmThreshold(0.5, 6.0, "SCALAR")(bands, step=4.0).ravel().tolist() == [0.0, 1.5, -9.0]
