@@ -135,7 +135,8 @@ def _results(
 
     limits: dict[str, Any] = {"max_bytes": arguments.max_memory, "n_threads": 0}
     if arguments.jobs is not None or arguments.scheduler is not None:
-        from ..farm.dask_farm import FarmError, NoDask, of_scheduler, on_this_computer
+        from ..farm.dask_farm import NoDask, of_scheduler, on_this_computer
+        from ..farm.dispatch import FarmError
 
         try:
             with ExitStack() as stack:

@@ -91,7 +91,7 @@ def read_weld_distance(obj: bpy.types.Object) -> float | None:
 
 def mapped(matrix: NDArray[np.float64], points: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return points, shape (n, 3), after an affine map, shape (4, 4)."""
-    moved: NDArray = points @ matrix[:3, :3].T + matrix[:3, 3]
+    moved: NDArray[np.float64] = points @ matrix[:3, :3].T + matrix[:3, 3]
     return moved
 
 
