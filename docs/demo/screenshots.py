@@ -31,6 +31,16 @@ PATIENCE = 300.0
 TEXT = 130
 """What is brighter than this in a panel is text; the viewport behind the sidebar is darker."""
 
+FRACTION = """
+import sys
+current_run = next(module for name, module in sys.modules.items() if name.endswith(".run.current_run"))
+
+def fraction():
+    run = current_run.current_run()
+    return run.fraction if run else 0.0
+"""
+"""How far a run is."""
+
 MOVED = "positions('Monkey').tobytes() != before"
 
 
@@ -85,12 +95,10 @@ def show_band(session: Session) -> None:
 
 
 def run_long(session: Session) -> None:
-    """Start a run that takes minutes, and stay in it."""
-    session.run("s = bpy.context.scene.framelet; s.preset = 'TRI_2'; s.iterations = 10000")
-    session.settle(0.5)
+    """Start a run that takes its time, and stay in it until its bar is seen."""
     press(session, "object.framelet_denoise")
-    session.wait_for("bool(bpy.ops.object.framelet_cancel.poll())")
-    session.settle(12.0)
+    session.run(FRACTION)
+    session.wait_for("fraction() > 0.2", PATIENCE)
 
 
 def choose_tri_2(session: Session) -> None:

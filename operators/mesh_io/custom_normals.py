@@ -71,6 +71,26 @@ def fit_better_after(normals: NDArray[np.float32], before: SurfaceMesh, after: N
     return bool(_angle(normals, new) < _angle(normals, old))
 
 
+def stay_noisy(
+    mesh: bpy.types.Mesh, normals: NDArray[np.float32], before: SurfaceMesh, after: NDArray[np.floating]
+) -> bool:
+    """Tell whether custom normals, shape (C, 3), bring noise back where a modifier moves the vertices.
+
+    They do if they are those of the noisy surface and are kept as directions, or shade split vertices as one:
+    then what is kept is how they differ from the noisy normals at the sides of the seam.
+    Takes what `settle_normals` takes, before the vertices of the mesh are moved.
+    """
+    import numpy as np
+
+    attribute = mesh.attributes.get("custom_normal")
+    are_directions = attribute is not None and attribute.data_type == "FLOAT_VECTOR"
+    corner = before.corner_vertex
+    if not are_directions and np.array_equal(_shaded_as_one(normals, before)[corner], corner):
+        return False
+    old, new = _smooth_normals(normals, before, after)
+    return _angle(normals, old) < _angle(old, new)
+
+
 def settle_normals(
     mesh: bpy.types.Mesh, normals: NDArray[np.float32], before: SurfaceMesh, after: NDArray[np.floating]
 ) -> str:

@@ -507,6 +507,24 @@ def test_normals_that_are_kept_as_directions_follow_too(shaded):
 
 
 @pytest.mark.parametrize("output", ["MODIFIER", "SHAPE_KEY"])
+def test_where_noisy_normals_of_a_split_seam_stay_it_is_said(make_object, rng, output, capfd):
+    whole = noisy(triangle_torus(), rng)
+    soup, vertex = exploded(whole)
+    obj = make_object(soup)
+    obj.data.polygons.foreach_set("use_smooth", [True] * len(obj.data.polygons))
+    custom_normals.write_normals(obj.data, vertex_normals(whole)[vertex])
+    bpy.ops.object.framelet_denoise(output=output)
+    said = capfd.readouterr().out
+    assert "; custom normals are noisy; with the output In Place they become those of the result" in said
+    if output == "MODIFIER":
+        bpy.ops.object.framelet_apply_modifier()
+        positions = np.empty_like(whole.vertices)
+        positions[vertex] = read(obj)
+        smooth = vertex_normals(whole.with_vertices(positions))[vertex]
+        assert degrees(custom_normals.read_normals(obj.data), smooth) < 0.2
+
+
+@pytest.mark.parametrize("output", ["MODIFIER", "SHAPE_KEY"])
 def test_where_clean_normals_cannot_stay_it_is_said(shaded, output, capfd):
     obj, clean = shaded
     custom_normals.write_normals(obj.data, clean)
