@@ -74,6 +74,11 @@ def denoise(session: Session, preset: str = "AUTO") -> None:
 def denoise_and_scroll(session: Session) -> None:
     """Denoise, and scroll the sidebar to its end."""
     denoise(session)
+    scroll(session)
+
+
+def scroll(session: Session) -> None:
+    """Scroll the sidebar to its end."""
     session.events(*[("WHEELDOWNMOUSE", "PRESS", session.middle("UI"), {})] * 40)
 
 
@@ -107,11 +112,12 @@ def choose_tri_2(session: Session) -> None:
 
 
 def show_group(session: Session) -> None:
-    """Set some options of a region."""
+    """Set some options of a region, and scroll the sidebar to its end."""
     session.run(
         "bpy.data.objects['Monkey'].vertex_groups.new(name='Face')\n"
         "s = bpy.context.scene.framelet; s.vertex_group = 'Face'; s.limit = 'EDGES'; s.keep_sharp = True"
     )
+    scroll(session)
 
 
 SHOTS = (
