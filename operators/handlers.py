@@ -9,6 +9,7 @@ from bpy.app.handlers import persistent
 
 from . import own_soon
 from .bands.transforms import forget_transforms
+from .colors.viewport import follow_undo
 from .mesh_io import kept_original
 from .modifier.cage import forget_cages
 from .preview import current_preview
@@ -29,9 +30,10 @@ def _before_undo(*_: object) -> None:
 
 @persistent
 def _after_undo(*_: object) -> None:
-    """Go on with a preview."""
+    """Go on with a preview, and show colors if there are some."""
     forget_cages()
     forget_sides()
+    follow_undo(bpy.context)
     current_preview.after_undo()
 
 

@@ -31,6 +31,16 @@ PATIENCE = 300.0
 TEXT = 130
 """What is brighter than this in a panel is text; the viewport behind the sidebar is darker."""
 
+FRACTION = """
+import sys
+current_run = next(module for name, module in sys.modules.items() if name.endswith(".run.current_run"))
+
+def fraction():
+    run = current_run.current_run()
+    return run.fraction if run else 0.0
+"""
+"""How far a run is."""
+
 MOVED = "positions('Monkey').tobytes() != before"
 
 
@@ -64,6 +74,11 @@ def denoise(session: Session, preset: str = "AUTO") -> None:
 def denoise_and_scroll(session: Session) -> None:
     """Denoise, and scroll the sidebar to its end."""
     denoise(session)
+    scroll(session)
+
+
+def scroll(session: Session) -> None:
+    """Scroll the sidebar to its end."""
     session.events(*[("WHEELDOWNMOUSE", "PRESS", session.middle("UI"), {})] * 40)
 
 
@@ -85,12 +100,10 @@ def show_band(session: Session) -> None:
 
 
 def run_long(session: Session) -> None:
-    """Start a run that takes minutes, and stay in it."""
-    session.run("s = bpy.context.scene.framelet; s.preset = 'TRI_2'; s.iterations = 10000")
-    session.settle(0.5)
+    """Start a run that takes its time, and stay in it until its bar is seen."""
     press(session, "object.framelet_denoise")
-    session.wait_for("bool(bpy.ops.object.framelet_cancel.poll())")
-    session.settle(12.0)
+    session.run(FRACTION)
+    session.wait_for("fraction() > 0.2", PATIENCE)
 
 
 def choose_tri_2(session: Session) -> None:
@@ -99,11 +112,12 @@ def choose_tri_2(session: Session) -> None:
 
 
 def show_group(session: Session) -> None:
-    """Set some options of a region."""
+    """Set some options of a region, and scroll the sidebar to its end."""
     session.run(
         "bpy.data.objects['Monkey'].vertex_groups.new(name='Face')\n"
         "s = bpy.context.scene.framelet; s.vertex_group = 'Face'; s.limit = 'EDGES'; s.keep_sharp = True"
     )
+    scroll(session)
 
 
 SHOTS = (

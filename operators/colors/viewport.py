@@ -37,6 +37,20 @@ def hide_unused_colors(context: bpy.types.Context) -> None:
         hide_vertex_colors(context)
 
 
+def follow_undo(context: bpy.types.Context) -> None:
+    """Make 3D Views show vertex colors if undo or redo brought them back, else what they showed before.
+
+    Blender undoes the colors of a mesh, and not what its views show.
+    """
+    shown = context.window_manager.framelet_band_range
+    objects = filter(None, (context.scene.objects.get(each.name) for each in shown.objects))
+    if any(obj.type == "MESH" and band_storage.has_colors(obj.data) for obj in objects):
+        if not shown.color_type:
+            show_vertex_colors(context)
+    else:
+        hide_vertex_colors(context)
+
+
 def _views(context: bpy.types.Context) -> list[bpy.types.SpaceView3D]:
     """Return the 3D View that an operator was called from, or else all of the screen."""
     space = context.space_data

@@ -6,7 +6,8 @@ Blender keeps most custom normals as differences to the normals of the surface, 
 a scan that is shaded by the normals of a clean model, or whose normals were found by another program. So
 normals that fit the result better than the input stay as directions. Normals that are those of the noisy
 surface, as they differ from them less than the run turned these, become those of the result. All others
-follow.
+follow. Where a seam splits a mesh, as in every GLB, vertices at the same place with the same normal are
+shaded as one, and stay so.
 """
 
 from __future__ import annotations
@@ -22,6 +23,9 @@ if TYPE_CHECKING:
 
 SAME = 1e-3
 """Directions that differ by less are the same: Blender keeps them in 16 bits."""
+
+ONE = 1e-2
+"""Normals at the sides of a seam that differ by less, as a chord, are one: they were rounded on each side."""
 
 
 def read_normals(mesh: bpy.types.Mesh) -> NDArray[np.float32] | None:
@@ -63,8 +67,28 @@ def fit_better_after(normals: NDArray[np.float32], before: SurfaceMesh, after: N
     after : ndarray, shape (N, 3)
         Its positions afterwards.
     """
-    old, new = _smooth(before), _smooth(before.with_vertices(after))
+    old, new = _smooth_normals(normals, before, after)
     return bool(_angle(normals, new) < _angle(normals, old))
+
+
+def stay_noisy(
+    mesh: bpy.types.Mesh, normals: NDArray[np.float32], before: SurfaceMesh, after: NDArray[np.floating]
+) -> bool:
+    """Tell whether custom normals, shape (C, 3), bring noise back where a modifier moves the vertices.
+
+    They do if they are those of the noisy surface and are kept as directions, or shade split vertices as one:
+    then what is kept is how they differ from the noisy normals at the sides of the seam.
+    Takes what `settle_normals` takes, before the vertices of the mesh are moved.
+    """
+    import numpy as np
+
+    attribute = mesh.attributes.get("custom_normal")
+    are_directions = attribute is not None and attribute.data_type == "FLOAT_VECTOR"
+    corner = before.corner_vertex
+    if not are_directions and np.array_equal(_shaded_as_one(normals, before)[corner], corner):
+        return False
+    old, new = _smooth_normals(normals, before, after)
+    return _angle(normals, old) < _angle(old, new)
 
 
 def settle_normals(
@@ -90,7 +114,7 @@ def settle_normals(
     """
     import numpy as np
 
-    old, new = _smooth(before), _smooth(before.with_vertices(after))
+    old, new = _smooth_normals(normals, before, after)
     if _angle(normals, new) < _angle(normals, old):
         write_normals(mesh, normals)
         return "KEPT"
@@ -103,11 +127,39 @@ def settle_normals(
     return ""
 
 
-def _smooth(surface: SurfaceMesh) -> NDArray[np.float64]:
-    """Return the normals of the vertices at all corners, shape (C, 3)."""
-    from ...core.mesh.geometry import vertex_normals
+def _smooth_normals(
+    normals: NDArray[np.float32], before: SurfaceMesh, after: NDArray[np.floating]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the normals of the surface before and after at all corners, shape (C, 3) each.
 
-    return vertex_normals(surface)[surface.corner_vertex]
+    Vertices that the custom normals, shape (C, 3), shade as one have one normal.
+    """
+    from ...core.mesh.geometry import vertex_normals
+    from ...core.mesh.surface_mesh import SurfaceMesh
+
+    corner = _shaded_as_one(normals, before)[before.corner_vertex]
+    joined = SurfaceMesh.trusted(
+        before.vertices, corner, before.corner_edge, before.face_offset, before.edges
+    )
+    old, new = vertex_normals(joined), vertex_normals(joined.with_vertices(after))
+    return old[corner], new[corner]
+
+
+def _shaded_as_one(normals: NDArray[np.float32], surface: SurfaceMesh) -> NDArray[np.int32]:
+    """Return for each vertex the first one at its place, shape (N,), or itself if their normals differ."""
+    import numpy as np
+
+    from ...core.mesh.weld import same_places
+
+    place = same_places(surface.vertices)
+    corner_place = place[surface.corner_vertex]
+    n_places = int(place.max(initial=-1)) + 1
+    counts = np.maximum(np.bincount(corner_place, minlength=n_places), 1)
+    means = [np.bincount(corner_place, normals[:, axis], n_places) / counts for axis in range(3)]
+    # The mean of unit vectors is as much shorter than one as they differ.
+    is_one = 1.0 - np.square(means).sum(axis=0) < ONE**2
+    first = np.unique(place, return_index=True)[1]
+    return np.where(is_one[place], first[place], np.arange(surface.n_vertices)).astype(np.int32)
 
 
 def _angle(first: NDArray[np.floating], second: NDArray[np.floating]) -> float:

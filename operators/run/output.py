@@ -116,7 +116,7 @@ def write_output(
     normals = custom_normals.read_normals(obj.data)
     if output == MODIFIER:
         positions = displacement.store_displacement(obj, surface, vertices, amount)
-        note = _normals_note(normals, surface, positions)
+        note = _normals_note(obj.data, normals, surface, positions)
         return WrittenOutput(obj, positions, note, displacement.shown_amount(obj))
     if output == NEW_OBJECT:
         obj = _add_copy(obj)
@@ -126,7 +126,7 @@ def write_output(
         remove_modifier(obj, DISPLACEMENT)
         note = rpt_("the modifier of the run before was removed")
     if output == SHAPE_KEY:
-        note = _both(note, _normals_note(normals, surface, vertices))
+        note = _both(note, _normals_note(obj.data, normals, surface, vertices))
         return _write_key(obj, surface, vertices, amount, note)
     if amount != 1.0:
         vertices = surface.vertices + amount * (vertices.astype("float64") - surface.vertices)
@@ -163,12 +163,19 @@ def _both(first: str, second: str) -> str:
 
 
 def _normals_note(
-    normals: NDArray[np.float32] | None, surface: SurfaceMesh, vertices: NDArray[np.floating]
+    mesh: bpy.types.Mesh,
+    normals: NDArray[np.float32] | None,
+    surface: SurfaceMesh,
+    vertices: NDArray[np.floating],
 ) -> str:
-    """Say that clean custom normals become noisy, as they follow a mesh that is not changed itself."""
-    if normals is None or not custom_normals.fit_better_after(normals, surface, vertices):
+    """Say that custom normals become or stay noisy, as they follow a mesh that is not changed itself."""
+    if normals is None:
         return ""
-    return rpt_("custom normals are cleaner than the mesh; with the output In Place they stay so")
+    if custom_normals.fit_better_after(normals, surface, vertices):
+        return rpt_("custom normals are cleaner than the mesh; with the output In Place they stay so")
+    if custom_normals.stay_noisy(mesh, normals, surface, vertices):
+        return rpt_("custom normals are noisy; with the output In Place they become those of the result")
+    return ""
 
 
 def select_instead(

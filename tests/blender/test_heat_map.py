@@ -291,11 +291,19 @@ def test_hiding_brings_back_what_was_shown(torus):
 
 
 def test_undo_takes_the_colors_away(torus):
+    space = next(area.spaces.active for area in bpy.context.screen.areas if area.type == "VIEW_3D")
+    space.shading.type, space.shading.color_type = "SOLID", "TEXTURE"
     bpy.ops.ed.undo_push(message="Before")
     bpy.ops.object.framelet_heat_map()
     bpy.ops.ed.undo_push(message="Heat")
     bpy.ops.ed.undo()
     assert "framelet_heat_map" not in bpy.data.objects["Torus"].data.attributes
+    assert space.shading.color_type == "TEXTURE"
+    bpy.ops.ed.redo()
+    assert "framelet_heat_map" in bpy.data.objects["Torus"].data.attributes
+    assert space.shading.color_type == "VERTEX"
+    bpy.ops.ed.undo()
+    assert space.shading.color_type == "TEXTURE"
 
 
 def test_all_selected_meshes_have_one_range(torus, make_object, rng):

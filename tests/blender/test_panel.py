@@ -254,6 +254,11 @@ def test_no_row_pops_in_while_a_run_goes_on(gate):
     until_done(run)
 
 
+def test_a_long_name_is_all_that_the_button_of_the_preview_says():
+    assert run_rows.preview_text("Monkey") == "Preview of ‘Monkey’"
+    assert run_rows.preview_text("Bust, scanned in May") == "‘Bust, scanned in May’"
+
+
 def test_what_the_preview_says_stands_below_the_settings(monkeypatch):
     noisy_monkey()
     monkeypatch.setattr(run_rows, "preview_message", lambda: "It ended")

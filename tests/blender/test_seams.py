@@ -451,6 +451,34 @@ def test_normals_of_the_noisy_mesh_follow(shaded, capfd):
     assert "; custom normals, which were those of the noisy surface, are those of" in capfd.readouterr().out
 
 
+def test_a_split_seam_stays_invisible(make_object, rng):
+    """Every GLB is split along the seams of its UV map, and shaded as if it was not."""
+    whole = noisy(triangle_torus(), rng)
+    soup, vertex = exploded(whole)
+    obj = make_object(soup)
+    obj.data.polygons.foreach_set("use_smooth", [True] * len(obj.data.polygons))
+    custom_normals.write_normals(obj.data, vertex_normals(whole)[vertex])
+    bpy.ops.object.framelet_denoise()
+    positions = np.empty_like(whole.vertices)
+    positions[vertex] = read(obj)
+    smooth = vertex_normals(whole.with_vertices(positions))[vertex]
+    assert degrees(custom_normals.read_normals(obj.data), smooth) < 0.2
+
+
+def test_edges_split_to_be_sharp_stay_sharp(make_object):
+    """Copies with normals of their own, as those of flat faces in a GLB, are no seam of a smooth surface."""
+    from framelet.core.mesh.geometry import face_normals
+
+    mesh, _ = box(8)
+    soup, _ = exploded(mesh.with_vertices(add_noise(mesh, 0.05, 1)))
+    obj = make_object(soup)
+    obj.data.polygons.foreach_set("use_smooth", [True] * len(obj.data.polygons))
+    custom_normals.write_normals(obj.data, face_normals(soup).repeat(3, axis=0))
+    bpy.ops.object.framelet_denoise()
+    flat = face_normals(mesh_bridge.read_surface(obj)).repeat(3, axis=0)
+    assert degrees(custom_normals.read_normals(obj.data), flat) < 0.2
+
+
 def test_creases_made_by_normals_follow(make_object):
     """Normals of faces on a smooth cube: its edges look sharp, and go on to do so."""
     mesh, _ = box(8)
@@ -476,6 +504,24 @@ def test_normals_that_are_kept_as_directions_follow_too(shaded):
     bpy.ops.object.framelet_denoise()
     assert degrees(custom_normals.read_normals(obj.data), smooth_normals(obj)) < 0.5
     assert degrees(old, smooth_normals(obj)) > 2.0
+
+
+@pytest.mark.parametrize("output", ["MODIFIER", "SHAPE_KEY"])
+def test_where_noisy_normals_of_a_split_seam_stay_it_is_said(make_object, rng, output, capfd):
+    whole = noisy(triangle_torus(), rng)
+    soup, vertex = exploded(whole)
+    obj = make_object(soup)
+    obj.data.polygons.foreach_set("use_smooth", [True] * len(obj.data.polygons))
+    custom_normals.write_normals(obj.data, vertex_normals(whole)[vertex])
+    bpy.ops.object.framelet_denoise(output=output)
+    said = capfd.readouterr().out
+    assert "; custom normals are noisy; with the output In Place they become those of the result" in said
+    if output == "MODIFIER":
+        bpy.ops.object.framelet_apply_modifier()
+        positions = np.empty_like(whole.vertices)
+        positions[vertex] = read(obj)
+        smooth = vertex_normals(whole.with_vertices(positions))[vertex]
+        assert degrees(custom_normals.read_normals(obj.data), smooth) < 0.2
 
 
 @pytest.mark.parametrize("output", ["MODIFIER", "SHAPE_KEY"])

@@ -177,7 +177,7 @@ def test_the_report_says_the_range(analyzed, capfd):
     assert f"Level 1, band 1 of ‘Torus’: colors from −{limit} to {limit}, " in report
     bpy.ops.object.framelet_show_band(content="LEVEL")
     assert re.search(
-        r"Level 1 of ‘Torus’: colors from 0 to [\d.]+, [\d.]+ % of all are within", capfd.readouterr().out
+        r"Level 1 of ‘Torus’: colors from 0 to [\d.]+, [\d.]+% of all are within", capfd.readouterr().out
     )
 
 

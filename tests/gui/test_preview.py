@@ -59,7 +59,9 @@ def test_escape_brings_back_the_original(preview):
 
 def test_kept_preview_is_what_the_button_gives(preview):
     session, noisy = preview
-    press(session, "object.framelet_apply_preview", seconds=1.0)
+    # While it computes a bar stands in the place of the button.
+    session.wait_for("bpy.ops.object.framelet_apply_preview.poll()")
+    press(session, "object.framelet_apply_preview", seconds=1.0, across=0.75)
     kept = session.run(NOISY)
     assert kept != noisy
     session.move(session.middle())

@@ -14,6 +14,9 @@ from ...operators.run.current_run import current_run
 from ...operators.run.run_display import progress_text
 from .layouts import draw_text
 
+LONG_NAME = 10
+"""Letters of a name that has room beside other words, in a sidebar as wide as Blender makes it."""
+
 
 def draw_run(layout: bpy.types.UILayout) -> None:
     """Draw one row: a bar and a button that cancels while a run is going on, else that of the preview.
@@ -39,7 +42,7 @@ def draw_preview(row: bpy.types.UILayout) -> None:
         is_busy = not session.is_current and not session.message
         row.operator(
             OBJECT_OT_framelet_preview.bl_idname,
-            text=iface_("Preview of {name}").format(name=f"‘{session.name}’"),
+            text=preview_text(session.name),
             translate=False,
             icon="SORTTIME" if is_busy else "HIDE_OFF",
             depress=True,
@@ -49,6 +52,12 @@ def draw_preview(row: bpy.types.UILayout) -> None:
             row.progress(factor=session.fraction, text=f"{session.fraction:.0%}")
         else:
             row.operator(OBJECT_OT_framelet_apply_preview.bl_idname, icon="CHECKMARK")
+
+
+def preview_text(name: str) -> str:
+    """Return the words on the button of a preview that is on; a long name is all that there is room for."""
+    quoted = f"‘{name}’"
+    return quoted if len(name) > LONG_NAME else iface_("Preview of {name}").format(name=quoted)
 
 
 def draw_message(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:

@@ -50,6 +50,7 @@ TEXTS = {
     "Which side of the last run is shown": "Welche Seite des letzten Laufs gezeigt wird",
     "clean custom normals stay as they are": "saubere eigene Normalen bleiben, wie sie sind",
     "custom normals are cleaner than the mesh; with the output In Place they stay so": "eigene Normalen sind sauberer als das Netz; mit der Ausgabe „An Ort und Stelle“ bleiben sie es",
+    "custom normals are noisy; with the output In Place they become those of the result": "eigene Normalen sind verrauscht; mit der Ausgabe „An Ort und Stelle“ werden sie die des Ergebnisses",
     "custom normals, which were those of the noisy surface, are those of the result": "eigene Normalen, die die der verrauschten Fläche waren, sind die des Ergebnisses",
     "the modifier of the run before was removed": "der Modifikator des vorigen Laufs wurde entfernt",
     "the shape key ‘{name}’ was replaced": "der Shape Key ‘{name}’ wurde ersetzt",

@@ -108,8 +108,10 @@ def main():
     parser.add_argument("--sizes", type=int, nargs="+", default=SIZES)
     parser.add_argument("--update", action="store_true")
     options = parser.parse_args()
+    import loading  # noqa: F401  # makes the checkout the package
+
+    # isort: split
     import framelet
-    import loading  # noqa: F401
 
     framelet.register()
     try:
