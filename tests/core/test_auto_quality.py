@@ -4,7 +4,7 @@
 
 import numpy as np
 import pytest
-from checks import assert_same_bits, lengths
+from checks import lengths
 from framelet.core import PRESETS, SurfaceMesh, add_noise, compare, denoise
 from known_shapes import SHAPES, cube, edge_of, lifted, white
 from mesh_files import read_mesh
