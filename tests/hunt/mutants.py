@@ -60,6 +60,7 @@ SIGNS = {
 }
 EXPLAINED = {
     "core/methods/split_bregman.py: steps.delta > 0  ->  steps.delta >= 0": "adds zeros, and takes memory",
+    "core/stencils/grid.py: 20  ->  21": "how many vertices are worked on together",
 }
 """Changes that do what the original does, by `path: before  ->  after`, and why; they are not tried."""
 
