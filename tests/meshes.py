@@ -197,7 +197,9 @@ def union(*meshes):
 
 
 def noisy(mesh, rng, sigma=0.15):
-    """Return the mesh with noise in all directions, sigma times the mean edge length."""
+    """Return the mesh with noise in all directions, sigma times the mean edge length; 0 without edges."""
+    if not mesh.n_edges:
+        return mesh
     start = mesh.vertices[mesh.edges[:, 0]]
     edge = np.linalg.norm(mesh.vertices[mesh.edges[:, 1]] - start, axis=1).mean()
     return mesh.with_vertices(mesh.vertices + rng.normal(0, sigma * edge, mesh.vertices.shape))

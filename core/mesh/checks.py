@@ -53,8 +53,7 @@ def check_surface(
         In one sentence, if the mesh has no vertices or faces, a position that is not finite, or no size.
     """
     check_positions(surface)
-    with np.errstate(over="ignore"):  # said in a sentence below
-        edge = mean_edge_length(surface, blocks, edge_face_count)
+    edge = mean_edge_length(surface, blocks, edge_face_count)
     if not edge > 0.0:
         raise MeshError("All faces have shrunk to points; the mesh has no size to measure noise by.")
     if not np.isfinite(edge):

@@ -38,6 +38,7 @@ def mean_edge_length(
     """Return the mean edge length over all face-edge incidences, in scene units; 0.0 without faces.
 
     An edge between two faces counts twice, so that on a closed mesh this is the mean over its edges.
+    It is infinite or NaN, without a warning, where positions are not finite or too large to be squared.
     `blocks` are threads to work on; `edge_face_count` (E,) are the faces at each edge, if they are known.
     """
     if not surface.n_corners:
@@ -50,9 +51,11 @@ def mean_edge_length(
     def kernel(start: int, stop: int) -> float:
         ends = np.ascontiguousarray(surface.edges[start:stop].T, np.intp)
         step = points.take(ends[0], axis=1, mode="clip")
-        step -= points.take(ends[1], axis=1, mode="clip")
-        # Not a dot product, which a matrix library would spread over threads of its own.
-        return float((row_lengths(step) * n_faces[start:stop]).sum())
+        # Here, as threads do not take the states of others.
+        with np.errstate(over="ignore", invalid="ignore"):
+            step -= points.take(ends[1], axis=1, mode="clip")
+            # Not a dot product, which a matrix library would spread over threads of its own.
+            return float((row_lengths(step) * n_faces[start:stop]).sum())
 
     return sum((blocks or Blocks(1)).run(kernel, surface.n_edges)) / surface.n_corners
 

@@ -16,6 +16,9 @@ from .edge_list import find_edges
 from .ragged import stretches
 from .surface_mesh import SurfaceMesh
 
+MOST_PAIRS = 2**19
+"""Pairs of vertices whose distance is looked at together; they take 100 bytes each."""
+
 
 @dataclass(frozen=True, eq=False)
 class Weld:
@@ -138,17 +141,20 @@ def _linked(vertices: NDArray[np.floating], groups: NDArray[np.int64], distance:
     n = int(groups.max()) + 1 if len(groups) else 0
     points = np.empty((n, 3))
     points[groups] = vertices
-    first, second = _close_pairs(points, distance)
-    return connected_components(n, first, second)[groups]
+    return _components_within(points, distance)[groups]
 
 
-def _close_pairs(points: NDArray[np.float64], distance: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return the pairs of points, shape (n, 3), at most `distance` apart.
+def _components_within(points: NDArray[np.float64], distance: float) -> NDArray[np.int32]:
+    """Return the component of each point, shape (n,), where points at most `distance` apart are linked.
 
     The points are sorted into cells as wide as the distance; partners are in the same or an adjacent cell.
+    Memory stays small where a distance is so wide that pairs are many: they are looked at some at a time, not
+    at all once their points are in one component.
     """
-    if not len(points):
-        return np.zeros(0, np.intp), np.zeros(0, np.intp)
+    n = len(points)
+    component = np.arange(n, dtype=np.int32)
+    if not n:
+        return component
     low = points.min(axis=0)
     extent = float((points.max(axis=0) - low).max())
     # Few enough cells that their numbers fit into 63 bits; larger cells only hold more points.
@@ -157,20 +163,41 @@ def _close_pairs(points: NDArray[np.float64], distance: float) -> tuple[NDArray[
     key = (cell[:, 0] * 2**21 + cell[:, 1]) * 2**21 + cell[:, 2]
     order = np.argsort(key, kind="stable")
     sorted_key = key[order]
-    pairs = []
+    found: list[tuple[NDArray[np.intp], NDArray[np.intp]]] = []
+    n_found = 0
     for x, y in ((0, 0), (0, 1), (1, -1), (1, 0), (1, 1)):
         # Three cells in a row are one stretch of sorted keys.
         wanted = key + (x * 2**21 + y) * 2**21
         begin = np.searchsorted(sorted_key, wanted - (1 if (x, y) != (0, 0) else 0))
         end = np.searchsorted(sorted_key, wanted + 1, side="right")
         counts = end - begin
-        one = np.repeat(np.arange(len(points)), counts)
-        other = order[stretches(begin, counts)]
-        step = points[one] - points[other]
-        is_close = (np.einsum("pi,pi->p", step, step) <= distance * distance) & (one != other)
-        pairs.append((one[is_close], other[is_close]))
-    first, second = zip(*pairs, strict=True)
-    return np.concatenate(first), np.concatenate(second)
+        total = np.concatenate(([0], np.cumsum(counts)))
+        start = 0
+        while start < n:
+            stop = max(int(np.searchsorted(total, total[start] + MOST_PAIRS, side="right")) - 1, start + 1)
+            one = np.repeat(np.arange(start, stop), counts[start:stop])
+            other = order[stretches(begin[start:stop], counts[start:stop])]
+            start = stop
+            is_new = component[one] != component[other]
+            one, other = one[is_new], other[is_new]
+            step = points[one] - points[other]
+            is_close = np.einsum("pi,pi->p", step, step) <= distance * distance
+            found.append((one[is_close], other[is_close]))
+            n_found += len(found[-1][0])
+            if n_found > MOST_PAIRS // 4:
+                component = _joined_by(component, found)
+                found, n_found = [], 0
+                if not component.any():
+                    return component
+    return _joined_by(component, found)
+
+
+def _joined_by(
+    component: NDArray[np.int32], links: list[tuple[NDArray[np.intp], NDArray[np.intp]]]
+) -> NDArray[np.int32]:
+    """Return components, shape (n,), numbered from 0, that are joined by links of their members."""
+    first, second = (component[np.concatenate(ends)] for ends in zip(*links, strict=True))
+    return connected_components(int(component.max()) + 1, first, second)[component]
 
 
 def _welded_faces(

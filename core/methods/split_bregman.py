@@ -25,10 +25,10 @@ returns True to stop."""
 class Steps(NamedTuple):
     """How the iteration goes: penalty mu, feedback delta, how often, and the motion at which it ends."""
 
-    mu: float = 1.0
-    delta: float = 0.0
-    iterations: int = 10
-    tolerance: float = 0.0
+    mu: float
+    delta: float
+    iterations: int
+    tolerance: float
 
 
 def split_bregman(

@@ -54,7 +54,8 @@ def open_source(source: Path, messages: Messages) -> OpenedFile:
     for sentence in file.warnings:
         messages.warn(f"{source}: {sentence}")
     points = file.positions
-    size = np.ptp(points, axis=0) if len(points) else np.zeros(3)
+    with np.errstate(over="ignore", invalid="ignore"):  # of what is no number
+        size = np.ptp(points, axis=0) if len(points) else np.zeros(3)
     messages.say(describe_input(source, len(points), file.n_faces, len(file.parts()), size))
     return OpenedFile(source, file, points.copy())
 

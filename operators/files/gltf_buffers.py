@@ -14,7 +14,7 @@ from urllib.parse import unquote
 import numpy as np
 from numpy.typing import NDArray
 
-from .mesh_file import FileError
+from .mesh_file import FileError, doubles
 
 COMPONENTS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
@@ -138,7 +138,7 @@ class Buffers:
 
     def values(self, stored: Stored) -> NDArray[np.float64]:
         """Return the values of an accessor, shape (n, width)."""
-        numbers = self.numbers(stored.at, stored.dtype, stored.width).astype(np.float64)
+        numbers = doubles(self.numbers(stored.at, stored.dtype, stored.width))
         return numbers if stored.scale == 1.0 else np.maximum(numbers / stored.scale, -1.0)
 
     @staticmethod

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .convert import triangles_of
-from .mesh_file import ROUNDED, FileError, MeshFile, check_indices
+from .mesh_file import ROUNDED, FileError, MeshFile, check_indices, doubles
 from .normals import renewed_normals
 from .places import merge_equal
 from .ply_binary import BinaryLayout
@@ -84,7 +84,7 @@ class PlyFile(MeshFile):
         self.precision = np.dtype(np.float64 if "f8" in kinds or self._are_whole else np.float32)
         self._kinds, self._places = kinds, [table.columns[number] for number in numbers]
         columns = [self._layout.values(at, kind) for at, kind in zip(self._places, kinds, strict=True)]
-        self.positions = np.stack(columns, axis=1).astype(np.float64)
+        self.positions = doubles(np.stack(columns, axis=1))
         numbers = [element.index(name) for name in ("nx", "ny", "nz")]
         self.has_normals = max(numbers) >= 0
         self._normals: tuple[list[NDArray[np.int64]], list[str]] | None = None
@@ -181,7 +181,7 @@ class PlyFile(MeshFile):
         before = np.stack(
             [self._layout.values(at, kind) for at, kind in zip(places, kinds, strict=True)], axis=1
         )
-        normals, is_new = self._renewed(before.astype(np.float64), after.astype(np.float64), moved)
+        normals, is_new = self._renewed(doubles(before), doubles(after), moved)
         if not is_new.any():
             return data
         layout = BinaryLayout(data, self._order) if self._order else TextLayout(data, self._begin)

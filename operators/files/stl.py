@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import digits, text
-from .mesh_file import FileError, MeshFile
+from .mesh_file import FileError, MeshFile, doubles
 from .places import merge_equal
 
 TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
@@ -49,8 +49,7 @@ class StlFile(MeshFile):
             )
         corners = self._read_text() if self._is_text else self._read_binary(n)
         self._vertex, first = merge_equal(corners)
-        with np.errstate(invalid="ignore"):  # of what is no number
-            self.positions = corners[first].astype(np.float64)
+        self.positions = doubles(corners[first])
         self.corner_vertex = self._vertex
         self.face_offset = np.arange(0, len(corners) + 1, 3)
 

@@ -38,5 +38,6 @@ def coarse_step(positions: NDArray[np.floating], edge: float) -> float:
     largest = max(abs(positions.min()), abs(positions.max()))
     if not np.isfinite(largest):
         return 0.0
-    step = float(np.spacing(largest)) / edge
-    return step if step > VISIBLE else 0.0
+    with np.errstate(over="ignore"):  # beside the largest number, whose step is infinite
+        step = float(np.spacing(largest)) / edge
+    return step if VISIBLE < step < float("inf") else 0.0  # else the run says what is wrong

@@ -516,3 +516,42 @@ def test_damaged_files(tmp_path, name, content, message):
     with pytest.raises(FileError, match=re.escape(message)) as caught:
         open_file(tmp_path / name)
     assert str(caught.value).count("\n") == 0 and str(tmp_path / name) in str(caught.value)
+
+
+BITS = {
+    "a signaling NaN": (0x7FA00000, 0x7FF4000000000000),
+    "infinity": (0x7F800000, 0x7FF0000000000000),
+    "the largest number": (0x7F7FFFFF, 0x7FEFFFFFFFFFFFFF),
+}
+BINARY = {
+    "a.ply": ("<f4", lambda: full_ply("binary_little_endian")[0]),
+    "b.ply": (">f4", lambda: full_ply("binary_big_endian")[0]),
+    "c.ply": (">f8", lambda: full_ply("binary_big_endian", "double")[0]),
+    "a.stl": ("<f4", full_stl_binary),
+    "a.glb": ("<f4", lambda: full_gltf("glb", sparse=False)[0]),
+}
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("bits", BITS)
+@pytest.mark.parametrize("name", BINARY)
+def test_coordinates_that_are_no_lengths_are_refused_without_a_warning(fails, tmp_path, name, bits):
+    kind, make = BINARY[name]
+    content, number = make(), np.array(BITS[bits][kind == ">f8"], kind.replace("f", "u"))
+    before = np.array(sheet()[0][7, 1], kind).tobytes()
+    assert before in content
+    (tmp_path / name).write_bytes(content.replace(before, number.tobytes()))
+    said = fails("denoise", tmp_path / name, tmp_path / f"out-{name}")
+    assert re.search("not a finite|not finite|scale it down", said), said
+
+
+@pytest.mark.filterwarnings("error")
+def test_normals_of_no_direction_are_renewed_without_a_warning(command, tmp_path):
+    points, faces = sheet()
+    normals = normals_of(points, faces)
+    normals[7, 1] = 0.3125
+    content = with_normals(points, faces, normals, "binary_little_endian")
+    before = np.float32(0.3125).tobytes()
+    assert content.count(before) == 1
+    (tmp_path / "a.ply").write_bytes(content.replace(before, np.uint32(0x7FA00000).tobytes()))
+    assert command("denoise", tmp_path / "a.ply", tmp_path / "b.ply", "--preset", "tri-2").code == 0

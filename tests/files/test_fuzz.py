@@ -87,6 +87,7 @@ def mutated(content, rng):
     return bytes(data)
 
 
+@pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize("name", SEEDS)
 def test_damaged_files(command, tmp_path, name):
     rng = np.random.default_rng(sum(name.encode()))

@@ -262,7 +262,7 @@ def meshes(draw, damages=tuple(DAMAGES), shapes=tuple(SHAPES)):
     rng = np.random.default_rng(seed)
     mesh = SHAPES[shape](rng)
     for name in names:
-        mesh = DAMAGES[name](mesh, rng) if mesh.n_edges or name != "noise" else mesh
+        mesh = DAMAGES[name](mesh, rng)
     drawn = Drawn.trusted(**vars_of(read_only(mesh)))
     object.__setattr__(drawn, "made", f"{shape}, seed {seed}, {', '.join(names) or 'no damage'}")
     return drawn

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from checks import assert_same_bits, edge_length, lengths, wild_mesh
 from framelet.core import PRESETS, PreparationCache, Region, SurfaceMesh, denoise, prepare
+from framelet.core.mesh import weld
 from framelet.core.mesh.connectivity import connect
 from framelet.core.mesh.weld import make_weld, same_places
 from meshes import faces_of, flipped, mixed_sheet, noisy, quad_grid, quad_torus, triangle_grid, triangle_torus
@@ -220,3 +221,29 @@ def test_a_large_scattered_soup(rng):
     result = denoise(soup, settings, region=EXACT).vertices
     expected = denoise(mesh, settings).vertices[np.argsort(new)][vertex]
     assert np.abs(result - expected).max() < 1e-4
+
+
+@pytest.mark.parametrize("distance", [0.02, 0.3, 3.0])
+def test_a_wide_distance_takes_little_memory(distance, rng):
+    """All pairs of 6,000 points took 2.3 GB."""
+    points = rng.random((6000, 3))
+    tracemalloc.start()
+    try:
+        component = weld._components_within(points, distance)
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert peak < 150e6
+    assert (len(np.unique(component)) > 5000) == (distance < 0.1)
+    assert (component == 0).all() == (distance > 0.1)
+
+
+def test_components_do_not_depend_on_how_many_pairs_are_looked_at_together(rng, monkeypatch):
+    points = rng.random((400, 3)) * [1, 1, 0.1]
+    whole = weld._components_within(points, 0.04)
+    monkeypatch.setattr(weld, "MOST_PAIRS", 8)
+    parts = weld._components_within(points, 0.04)
+    links = np.linalg.norm(points[:, None] - points, axis=2) <= 0.04
+    assert 10 < len(np.unique(whole)) < 390
+    assert (whole[:, None] == whole)[links].all()
+    assert np.array_equal(whole, parts)
