@@ -8,7 +8,7 @@ import argparse
 import os
 import sys
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, closing, contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -148,7 +148,9 @@ def _results(
                     limits["n_threads"] = max(1, default_threads() // n_processes)
                     farm = stack.enter_context(on_this_computer(n_processes, _environment()))
                 function = "operators.command_line.batch_task:carry_out"
-                yield farm.results([job | limits for job in jobs], function)
+                rows = farm.results([job | limits for job in jobs], function)
+                # An interrupt leaves it half-way: it says goodbye while the farm is still there.
+                yield stack.enter_context(closing(rows))
                 return
         except NoDask as error:
             if arguments.scheduler is not None:

@@ -13,7 +13,7 @@ from __future__ import annotations
 import importlib
 import sys
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Generator, Iterable
 from dataclasses import dataclass
 from itertools import count
 from time import monotonic, sleep
@@ -70,8 +70,8 @@ class Farm:
 
     def results(
         self, jobs: Iterable[dict[str, Any]], function: str
-    ) -> Iterator[tuple[dict[str, Any], dict[str, Any]]]:
-        """Yield each job with its row, as they end.
+    ) -> Generator[tuple[dict[str, Any], dict[str, Any]]]:
+        """Yield each job with its row, as they end; to be closed before the farm is.
 
         Each worker is given one job at a time, which no other worker takes from it, and the next one when the
         row is here: a row that is left in a process that dies would be lost.
