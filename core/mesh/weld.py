@@ -196,6 +196,8 @@ def _joined_by(
     component: NDArray[np.int32], links: list[tuple[NDArray[np.intp], NDArray[np.intp]]]
 ) -> NDArray[np.int32]:
     """Return components, shape (n,), numbered from 0, that are joined by links of their members."""
+    if not links:
+        return component
     first, second = (component[np.concatenate(ends)] for ends in zip(*links, strict=True))
     return connected_components(int(component.max()) + 1, first, second)[component]
 

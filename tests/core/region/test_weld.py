@@ -238,6 +238,15 @@ def test_a_wide_distance_takes_little_memory(distance, rng):
     assert (component == 0).all() == (distance > 0.1)
 
 
+def test_links_may_be_many_enough_in_the_last_portion(rng):
+    """Two clusters in cells that touch at a corner, and three points far off: nothing is left to join then."""
+    clusters = np.repeat([[0.45, 0.45, 0.0], [0.55, 0.55, 0.0]], [350, 30], axis=0)
+    far = [[-10.5, -10.5, 0.0], [-8.5, -10.5, 0.0], [-10.5, -8.5, 0.0]]
+    points = np.concatenate((far, clusters + 0.01 * rng.random((380, 3))))
+    mesh = SurfaceMesh.from_faces(points, [(0, 1, 2), (0, 1, 3)])
+    assert make_weld(mesh, 1.0).vertex.tolist() == [0, 1, 2] + [3] * 380
+
+
 def test_components_do_not_depend_on_how_many_pairs_are_looked_at_together(rng, monkeypatch):
     points = rng.random((400, 3)) * [1, 1, 0.1]
     whole = weld._components_within(points, 0.04)
