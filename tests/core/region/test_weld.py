@@ -239,7 +239,7 @@ def test_a_wide_distance_takes_little_memory(distance, rng):
 
 
 def test_links_may_be_many_enough_in_the_last_portion(rng):
-    """Two clusters in cells that touch at a corner, and three points far off: nothing is left to join then."""
+    """Two clusters in cells that touch at a corner, and a face far off: nothing is left to join then."""
     clusters = np.repeat([[0.45, 0.45, 0.0], [0.55, 0.55, 0.0]], [350, 30], axis=0)
     far = [[-10.5, -10.5, 0.0], [-8.5, -10.5, 0.0], [-10.5, -8.5, 0.0]]
     points = np.concatenate((far, clusters + 0.01 * rng.random((380, 3))))
