@@ -12,7 +12,6 @@ from pathlib import Path
 
 from .shapes.__main__ import make_shapes
 from .train import LARGEST_RATE, train
-from .width import compare, fit
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -21,9 +20,8 @@ def main() -> int:
     """Train, and return the exit code."""
     parser = argparse.ArgumentParser(prog="python -m training", description=__doc__)
     parser.add_argument("--folder", type=Path, default=ROOT / "build" / "training", help="all that is made")
-    parser.add_argument("--shapes", type=int, default=1350, help="number of meshes")
+    parser.add_argument("--shapes", type=int, default=1500, help="number of meshes")
     parser.add_argument("--minutes", type=float, default=240, help="time for each net, in all runs together")
-    parser.add_argument("--draws", type=int, default=1500, help="runs of both nets to learn the choice from")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--start", type=Path, help="folder of checkpoints to start from, such as training")
     parser.add_argument("--rate", type=float, default=LARGEST_RATE, help="largest learning rate")
@@ -34,9 +32,8 @@ def main() -> int:
         ["git", "rev-parse", "HEAD"], cwd=ROOT, capture_output=True, text=True, check=False
     ).stdout.strip()
     target = ROOT / "core" / "learned" if options.write else options.folder
-    nets = {}
     for width in ("fine", "wide"):
-        nets[width] = train(
+        train(
             width,
             options.folder / "shapes",
             options.folder / width,
@@ -51,9 +48,7 @@ def main() -> int:
                 "commit": commit,
             },
         )
-    found = compare(nets, options.folder / "shapes", options.draws, options.seed)
-    gain, best = fit(*found, target / "width.npz")
-    print(f"Wrote {target}. The choice gains {gain:.3f} of {best:.3f} over fine alone.")
+    print(f"Wrote {target}.")
     return 0
 
 

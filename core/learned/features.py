@@ -17,8 +17,7 @@ from numpy.typing import NDArray
 from ..averages.means import Means
 from ..averages.ring_means import RingMeans
 from .face_graph import FaceGraph, Polygons
-from .islands import faces_of_islands
-from .measured import Measured
+from .measured import Measured, counted_faces
 from .residual import Residual
 from .scales import N_SCALES, Scales
 
@@ -51,8 +50,6 @@ class Features:
         Distance, ratio of areas, bends and offsets across each edge; 0 for the pair without faces.
     quantiles : ndarray, shape (I, N_GLOBAL), float32
         Quantiles of energies over each island, as they are at Strength 1; small islands are one.
-    n_measured : ndarray, shape (I,), intp
-        Of how many faces.
     context : ndarray, shape (I, N_CONTEXT), float32
         What is known of each island as a whole: its quantiles, and means of what the pass before took away.
     island : ndarray, shape (F,), intp, or None
@@ -67,7 +64,6 @@ class Features:
 
     pairs: NDArray[np.float32]
     quantiles: NDArray[np.float32]
-    n_measured: NDArray[np.intp]
     context: NDArray[np.float32]
     island: NDArray[np.intp] | None
     block: Callable[[slice, Polygons], NDArray[np.float32]]
@@ -196,12 +192,8 @@ def find_features(
         )
 
     graph.for_faces(energies_at)
-    parts: list[slice | NDArray[np.intp]] = [slice(None)]
-    if island is not None:
-        parts = [*faces_of_islands(island)]
-    counted = parts if measured is None else [measured.of(part) for part in parts]
+    counted = counted_faces(island, measured)
     quantiles = np.array([quantiles_of(spread[own], is_flat[own]) for own in counted])
-    n_measured = np.array([len(is_flat[own]) for own in counted], np.intp)
     stronger = quantiles + np.float32(log_strength) * _BY_STRENGTH
     before = np.zeros((graph.n_faces, N_RESIDUAL), np.float32)
     if residual is not None:
@@ -250,7 +242,7 @@ def find_features(
         faces[:, -N_RESIDUAL:] = before[block]
         return faces
 
-    return Features(pairs, quantiles, n_measured, context, island, collect, graph)
+    return Features(pairs, quantiles, context, island, collect, graph)
 
 
 _BY_STRENGTH = np.array([2] * 6 + [0] * 3 + [1] * 6 + [0], np.float32)

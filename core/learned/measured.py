@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .face_graph import FaceGraph
-from .islands import LEAST_ISLAND
+from .islands import LEAST_ISLAND, faces_of_islands
 
 
 class Measured(NamedTuple):
@@ -72,3 +72,13 @@ def find_measured(
         grows = faces & is_short[number]
         for group in graph.groups:
             vertices[group.corners[:, grows[group.begin : group.end]]] = True
+
+
+def counted_faces(
+    island: NDArray[np.intp] | None, measured: Measured | None
+) -> list[slice | NDArray[np.intp]]:
+    """Return which faces of each island say something about its noise; all of them without `measured`."""
+    parts: list[slice | NDArray[np.intp]] = [slice(None)]
+    if island is not None:
+        parts = [*faces_of_islands(island)]
+    return parts if measured is None else [measured.of(part) for part in parts]

@@ -3,53 +3,84 @@
 """Whether noise is wide: shared by neighbors, as scanners and voxels make it, or new at each vertex.
 
 Fine relief and wide noise look alike, and one net for both is too timid for the one or too bold for the
-other. So there are two, and this says which one will be closer to the clean surface: a regression, learned
-from runs of both, on the quantiles of energies over an island.
+other. So there are two. Which one a connected part needs is seen in what first passes take away. Of white
+noise a pass for fine noise takes away what is white; what neighbors share is wide noise or relief. A pass for
+wide noise tells these apart: it takes away more of noise than of relief.
 """
 
 from __future__ import annotations
 
-from functools import cache
-from pathlib import Path
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
-ARRAYS = Path(__file__).with_name("width.npz")
+from .face_graph import FaceGraph, Polygons
+from .residual import Residual
 
-CLIP = np.float32(3)
-"""Standardized quantiles are cut off here: squares grow fast where nothing was seen."""
+SHARED, UNSURE_SHARED = np.float32(0.015), np.float32(0.01)
+"""Correlation with the mean of the ring from which neighbors share the residual of a pass for fine noise.
 
-LEAST_FACES = 2000
-"""Faces of an island below which its noise counts as fine: quantiles of few faces hang on single ones."""
+It is below 0 for white noise, as a pass takes less of what is smooth, and 0.025 and more for noise that was
+averaged with the ring once. So far away both nets have a share, so that rounding decides nothing.
+"""
 
-UNSURE = np.float32(0.02)
-"""Gain up to which both nets have a share, so that rounding decides nothing."""
+STRONG, UNSURE_STRONG = np.float32(0.045), np.float32(0.005)
+"""Root mean square of the residual of a pass for wide noise, in local edge lengths, from which it is noise.
 
-
-def wide_share(quantiles: NDArray[np.float32], n_faces: NDArray[np.intp]) -> NDArray[np.float32]:
-    """Return the share of the net for wide noise, shape (I,), from 0 to 1.
-
-    `quantiles`, shape (I, N_GLOBAL), are those of `Features`, and `n_faces`, shape (I,), of how many faces.
-    """
-    arrays = _load()
-    gain = terms(quantiles, arrays["mean"], arrays["scale"]) @ arrays["weights"]
-    share: NDArray[np.float32] = np.clip(np.float32(0.5) + gain / (2 * UNSURE), 0, 1)
-    share[n_faces < LEAST_FACES] = 0
-    return share
+It is 0.02 to 0.04 for relief of clean meshes, and 0.05 and more for scans.
+"""
 
 
-def terms(
-    quantiles: NDArray[np.float32], mean: NDArray[np.float32], scale: NDArray[np.float32]
+def shared_share(
+    residual: Residual,
+    unit: NDArray[np.float32],
+    graph: FaceGraph,
+    counted: Sequence[slice | NDArray[np.intp]],
 ) -> NDArray[np.float32]:
-    """Return 1, standardized quantiles and their products, shape (I, 153), whose sum is the gain of wide."""
-    rows = np.clip((quantiles - mean) / scale, -CLIP, CLIP)
-    one, two = np.triu_indices(rows.shape[1])
-    return np.concatenate((np.ones_like(rows[:, :1]), rows, rows[:, one] * rows[:, two]), axis=1)
+    """Return how much of the residual of a pass for fine noise neighbors share, shape (I,), from 0 to 1.
+
+    Parameters
+    ----------
+    residual : Residual
+        What the pass took away. Its correlation counts by its strength.
+    unit : ndarray, shape (N,), float32
+        Local edge lengths.
+    graph : FaceGraph
+        Faces.
+    counted : sequence of slice or ndarray
+        Which faces of each island say something about it.
+    """
+    strength = residual.strength / unit
+    shared, total = _sums(np.stack((strength * residual.correlation, strength)), graph, counted)
+    return _ramp(shared / np.maximum(total, 1e-30), SHARED, UNSURE_SHARED)
 
 
-@cache
-def _load() -> dict[str, NDArray[np.float32]]:
-    """Read the arrays that come with Framelet."""
-    with np.load(ARRAYS) as file:
-        return {name: file[name] for name in file.files if file[name].dtype.kind == "f"}
+def strong_share(
+    residual: Residual,
+    unit: NDArray[np.float32],
+    graph: FaceGraph,
+    counted: Sequence[slice | NDArray[np.intp]],
+) -> NDArray[np.float32]:
+    """Return whether a pass for wide noise took away noise, shape (I,), from 0 to 1; see `shared_share`."""
+    square = (residual.strength / unit) ** 2
+    total, n_corners = _sums(np.stack((square, np.ones_like(square))), graph, counted)
+    return _ramp(np.sqrt(total / np.maximum(n_corners, 1)), STRONG, UNSURE_STRONG)
+
+
+def _sums(
+    fields: NDArray[np.float32], graph: FaceGraph, counted: Sequence[slice | NDArray[np.intp]]
+) -> NDArray[np.float64]:
+    """Return sums over faces of means at their corners, shape (n, I), of fields at vertices, shape (n, N)."""
+    at_faces = np.empty((len(fields), graph.n_faces), np.float32)
+
+    def collect(faces: slice, polygons: Polygons) -> None:
+        at_faces[:, faces] = fields.take(polygons.corners, axis=1).mean(axis=1)
+
+    graph.for_faces(collect)
+    return np.stack([at_faces[:, own].sum(axis=1, dtype=np.float64) for own in counted], axis=1)
+
+
+def _ramp(values: NDArray[np.float64], middle: np.float32, unsure: np.float32) -> NDArray[np.float32]:
+    """Return 0 well below the middle, 1 well above, and what lies between."""
+    return np.clip((values - middle) / (2 * unsure) + 0.5, 0, 1).astype(np.float32)

@@ -19,10 +19,11 @@ from numpy.typing import NDArray
 
 from ..learned.clean_parts import clean_places, flat_vertices, hardly_moved
 from ..learned.engine import FaceEngine
+from ..learned.measured import counted_faces
 from ..learned.net import N_LAYERS, load_net
 from ..learned.noise_field import find_belief
 from ..learned.residual import Residual
-from ..learned.width import wide_share
+from ..learned.width import shared_share, strong_share
 from .problem import Problem, Solution
 
 WEAKEST = 0.25
@@ -56,7 +57,6 @@ def shrink_normals(problem: Problem) -> Solution:
     assert engine is not None
     points = np.ascontiguousarray(noisy, np.float32)
     run = _Run(points, engine, problem)
-    run.n_ticks = TICKS * settings.passes
     amount = min(settings.strength / WEAKEST, 1.0)
     fitted, n_passes, is_stopped = points, 0, False
     try:
@@ -86,7 +86,7 @@ class _Run:
 
     def __init__(self, points: NDArray[np.float32], engine: FaceEngine, problem: Problem) -> None:
         self.points, self.engine, self._problem = points, engine, problem
-        self.n_ticks, self._n_done = TICKS, 0.0
+        self._done, self._n_left = 0.0, float(TICKS * problem.settings.passes)
         self._log_strength = math.log(max(problem.settings.strength, WEAKEST))
         self._wide = np.array([problem.settings.noise == "WIDE"], np.float32)
         self._is_movable = np.ones(points.shape[1], bool)
@@ -102,7 +102,39 @@ class _Run:
 
     def first_pass(self) -> NDArray[np.float32]:
         """Return the positions, shape (3, N), after a pass that also finds what is wide and what is still."""
-        moved = self._fitted(self._normals(self.points, None, is_first=True))
+        if self._problem.settings.noise == "AUTO":
+            tried = self._tried()
+            return self.next_pass(self.points) if tried is None else tried
+        return self._still(self._passed(self.points, self._wide, self._log_strength, is_first=True))
+
+    def next_pass(self, fitted: NDArray[np.float32]) -> NDArray[np.float32]:
+        """Return the positions, shape (3, N), after a pass that is guided by fitted ones."""
+        return self._passed(fitted, self._wide, self._log_strength)
+
+    def _tried(self) -> NDArray[np.float32] | None:
+        """Find what is wide and what is still, by passes for fine and, where it may be, for wide noise.
+
+        They have Strength 1, so that what noise is does not depend on how much of it is removed. Returned are
+        the positions after one of them if it is what is wanted.
+        """
+        self._n_left += 1
+        fine = wanted = self._still(self._passed(self.points, np.zeros(1, np.float32), is_first=True))
+        counted = counted_faces(self.engine.island, self.measured)
+        share = shared_share(self._residual(fine), self.unit, self.engine.graph, counted)
+        if share.any():
+            self._n_left += TICKS
+            wide = self._passed(self.points, np.ones(1, np.float32))
+            share *= strong_share(self._residual(wide), self.unit, self.engine.graph, counted)
+            wanted = wide if share.any() else fine
+        self._wide = share if self.engine.island is None else share[self.engine.island]
+        is_wanted = share.min() == share.max() in (0, 1) and not self._log_strength
+        if not is_wanted:
+            self._n_left += TICKS
+        self._tick()
+        return wanted if is_wanted else None
+
+    def _still(self, moved: NDArray[np.float32]) -> NDArray[np.float32]:
+        """Find what is still, by the positions after a first pass, and put it back."""
         is_clean = clean_places(
             self.points,
             self._problem.surface,
@@ -119,38 +151,39 @@ class _Run:
         moved[:, ~self.is_free] = self.points[:, ~self.is_free]
         return moved
 
-    def next_pass(self, fitted: NDArray[np.float32]) -> NDArray[np.float32]:
-        """Return the positions, shape (3, N), after a pass that is guided by fitted ones."""
-        is_input = fitted is self.points
-        residual = None if is_input else self.engine.residual(self.points, fitted, self.measured)
-        return self._fitted(self._normals(fitted, residual))
+    def _residual(self, fitted: NDArray[np.float32]) -> Residual:
+        """Return what was taken away so far."""
+        return self.engine.residual(self.points, fitted, self.measured)
 
-    def _normals(
-        self, points: NDArray[np.float32], residual: Residual | None, *, is_first: bool = False
+    def _passed(
+        self,
+        points: NDArray[np.float32],
+        wide: NDArray[np.float32],
+        log_strength: float = 0.0,
+        *,
+        is_first: bool = False,
     ) -> NDArray[np.float32]:
-        """Return the normals that the nets want for faces, shape (3, F)."""
-        scales, features = self.engine.describe(points, residual, self._log_strength, self.measured)
+        """Return the positions, shape (3, N), after a pass; `wide`, (1,) or (F,), is that net's share."""
+        residual = None if points is self.points else self._residual(points)
+        scales, features = self.engine.describe(points, residual, log_strength, self.measured)
         self.unit = scales.unit
         if is_first:
             self.is_free &= ~flat_vertices(points, scales, self.engine.graph, self.measured)
-            if self._problem.settings.noise == "AUTO":
-                share = wide_share(features.quantiles, features.n_measured)
-                self._wide = share if features.island is None else share[features.island]
         self._tick()
         fine, tick = None, self._tick
-        if 0 < self._wide.mean() < 1:
+        if 0 < wide.mean() < 1:
             tick = partial(self._tick, 0.5)  # for each of the two nets
             own = scales._replace(normals=scales.normals.copy())
             fine = load_net("fine").normals(own, features, self.engine.graph, tick)
-            fine *= 1 - self._wide
-        begun = load_net("wide" if self._wide.any() else "fine").begun(scales, features, self.engine.graph)
+            fine *= 1 - wide
+        begun = load_net("wide" if wide.any() else "fine").begun(scales, features, self.engine.graph)
         del scales, features  # a third of the memory
         normals = begun.normals(tick)
         if fine is not None:
-            normals *= self._wide
+            normals *= wide
             normals += fine
             normals /= np.sqrt((normals * normals).sum(axis=0)) + np.float32(1e-6)
-        return normals
+        return self._fitted(normals)
 
     def _fitted(self, normals: NDArray[np.float32]) -> NDArray[np.float32]:
         """Return the vertices, shape (3, N), whose faces have these normals."""
@@ -163,8 +196,9 @@ class _Run:
         return moved
 
     def _tick(self, n_steps: float = 1.0) -> None:
-        """Tell that a step, or a part of one, is done."""
-        self._n_done += n_steps
+        """Tell that a step, or a part of one, is done; which share it has depends on how many are left."""
+        self._done += (1 - self._done) * n_steps / self._n_left
+        self._n_left -= n_steps
         callback = self._problem.callback
-        if callback is not None and callback(min(self._n_done / self.n_ticks, 1.0), 0.0):
+        if callback is not None and callback(min(self._done, 1.0), 0.0):
             raise _Stopped

@@ -10,14 +10,12 @@ import pytest
 torch = pytest.importorskip("torch", reason="PyTorch is in the environment for training only")
 
 from core.learned.net import Net as NumpyNet  # noqa: E402
-from core.learned.width import terms  # noqa: E402
 from training import noise  # noqa: E402
 from training.net import Net  # noqa: E402
 from training.sample_mesh import SampleMesh  # noqa: E402
 from training.shapes.catalog import family_of, make  # noqa: E402
 from training.shapes.mesh import condition  # noqa: E402
 from training.train import REPEATS, Draw, both_passes, standardize, train  # noqa: E402
-from training.width import compare, fit  # noqa: E402
 
 
 @pytest.fixture(scope="module")
@@ -118,17 +116,3 @@ def test_a_run_learns_and_goes_on_where_it_was_cut_off(shapes, meshes, net, tmp_
     with torch.no_grad():
         losses = [np.mean([both_passes(own, draw, (1, 1)) for draw in draws]) for own in (net, trained)]
     assert losses[1] < losses[0] - 0.2
-
-
-def test_the_choice_is_learned_from_runs_of_both_nets(shapes, net, tmp_path):
-    """Two nets, one of which is better where the first quantile is large, by what is made up."""
-    quantiles, gains = compare({"fine": net, "wide": net}, shapes, 2, 1)
-    assert quantiles.shape == (2, 16) and np.isfinite(quantiles).all() and not gains.any()
-    rng = np.random.default_rng(5)
-    quantiles = rng.normal(size=(1500, 16)).astype(np.float32)
-    gains = (0.3 * np.sign(quantiles[:, 0]) + 0.05 * rng.normal(size=1500)).astype(np.float32)
-    gain, best = fit(quantiles, gains, tmp_path / "width.npz")
-    assert 0.8 * best < gain <= best
-    with np.load(tmp_path / "width.npz") as file:
-        chosen = terms(quantiles, file["mean"], file["scale"]) @ file["weights"] > 0
-    assert (chosen == (gains > 0)).mean() > 0.9

@@ -10,7 +10,7 @@ from .islands import make_islands
 from .marching import make_marching
 from .mesh import Mesh, bends, condition, flipped, select_faces, volume
 from .noise import chance, log_uniform, random_rotation
-from .organic import make_organic
+from .organic import make_cutout, make_organic
 from .parts import make_part
 from .plates import make_plate
 from .quads import make_coarse_quads, make_quads
@@ -62,6 +62,11 @@ TINY_FAMILIES = {
     "organic": (make_organic, 2.0),
 }
 
+FIRST_CUTOUT = 1350
+"""Number of the first piece of a body of up to 100,000 faces."""
+
+CUTOUT_FAMILIES = {"organic": (make_cutout, 1.0)}
+
 N_TRIES = 6
 LEAST_FACES, LEAST_COARSE = 3000, 350
 MOST_FACES = 26000
@@ -80,10 +85,12 @@ def family_of(index: int) -> str:
 
 def is_coarse(index: int) -> bool:
     """Return whether a mesh is one of those whose surface bends a lot from face to face."""
-    return FIRST_COARSE <= index < FIRST_SCANNED or index >= FIRST_TINY
+    return FIRST_COARSE <= index < FIRST_SCANNED or FIRST_TINY <= index < FIRST_CUTOUT
 
 
 def _families(index: int) -> dict:
+    if index >= FIRST_CUTOUT:
+        return CUTOUT_FAMILIES
     if index >= FIRST_TINY:
         return TINY_FAMILIES
     if index >= FIRST_SCANNED:
@@ -92,6 +99,8 @@ def _families(index: int) -> dict:
 
 
 def _target(rng, index: int) -> int:
+    if index >= FIRST_CUTOUT:
+        return int(log_uniform(rng, 7000, 16000))
     if is_coarse(index):
         return int(log_uniform(rng, 500, 4500 if index < FIRST_TINY else 1500))
     return int(log_uniform(rng, 6000, 14000) if chance(rng, 0.8) else log_uniform(rng, 4200, 22000))

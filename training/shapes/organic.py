@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 from skimage.measure import marching_cubes
 
-from .mesh import Mesh, from_faces, largest_island, mean_edge, vertex_normals
+from .mesh import Mesh, from_faces, largest_island, mean_edge, select_faces, vertex_normals
 from .noise import Noise, chance, log_uniform, random_rotation
 from .relief import with_relief
 from .resampling import decimated, graded, isotropic, refined_in_parts
@@ -303,6 +303,15 @@ def make_organic(rng, target: int) -> Mesh:
     if way == 3:
         return isotropic(mesh, target, rng.choice([30.0, 60.0, 180.0]), 3)
     return mesh
+
+
+def make_cutout(rng, target: int) -> Mesh:
+    """Make a piece of a body of many more faces: there the surface bends little from face to face."""
+    mesh = make_organic(rng, int(target * log_uniform(rng, 3, 9)))
+    middle = mesh.vertices[mesh.corner_vertex.reshape(-1, 3)].mean(1)
+    distance = np.linalg.norm(middle - middle[rng.integers(len(middle))], axis=1)
+    is_near = distance <= np.sort(distance)[min(target, len(distance)) - 1]
+    return largest_island(select_faces(mesh, is_near))
 
 
 def bend(rng, mesh: Mesh, strength: float = 0.15) -> Mesh:

@@ -147,8 +147,6 @@ def loaded_core(checkout, weights):
         net = importlib.import_module("framelet.core.learned.net")
         for width, path in net.WEIGHTS.items():
             net.WEIGHTS[width] = Path(weights) / path.name
-        choice = importlib.import_module("framelet.core.learned.width")
-        choice.ARRAYS = Path(weights) / choice.ARRAYS.name
     return importlib.import_module("framelet.core")
 
 

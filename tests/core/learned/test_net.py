@@ -174,8 +174,7 @@ core.prepare(mesh)
 assert not calls, calls
 for _ in range(3):
     core.denoise(mesh)
-# Which net is right, and that net.
-assert len(calls) == 2, calls
+assert len(calls) == 1, calls
 """
 
 
