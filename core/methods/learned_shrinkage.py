@@ -118,7 +118,7 @@ class _Run:
         the positions after one of them if it is what is wanted.
         """
         self._n_left += 1
-        fine = wanted = self._still(self._passed(self.points, np.zeros(1, np.float32), is_first=True))
+        fine = wanted = self._passed(self.points, np.zeros(1, np.float32), is_first=True)
         counted = counted_faces(self.engine.island, self.measured)
         share = shared_share(self._residual(fine), self.unit, self.engine.graph, counted)
         if share.any():
@@ -126,6 +126,7 @@ class _Run:
             wide = self._passed(self.points, np.ones(1, np.float32))
             share *= strong_share(self._residual(wide), self.unit, self.engine.graph, counted)
             wanted = wide if share.any() else fine
+        wanted = self._still(wanted)
         self._wide = share if self.engine.island is None else share[self.engine.island]
         is_wanted = share.min() == share.max() in (0, 1) and not self._log_strength
         if not is_wanted:
