@@ -99,3 +99,11 @@ NOISES: Mapping[str, Callable[[SurfaceMesh, int], np.ndarray]] = {
     "view 0.15": partial(along_view, sigma=0.15),
 }
 """Functions that take a clean surface and a seed, by name and standard deviation."""
+
+WHITE = ("normal", "direction", "impulsive")
+"""How the names of noise begin that is new at each vertex and the same everywhere."""
+
+
+def is_white(noise: str) -> bool:
+    """Return whether a noise is white and uniform; others are more like those of scanners."""
+    return noise.startswith(WHITE)
