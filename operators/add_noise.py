@@ -10,7 +10,6 @@ from .mesh_io import mesh_bridge
 from .preview import targets
 from .properties.region_values import as_typed
 from .reports.filled_reports import forget_estimate
-from .run.shape import check_shape, shape_of, write_shape
 
 
 def add_noise_to_object(obj: bpy.types.Object, sigma: float, seed: int) -> None:
@@ -31,6 +30,8 @@ def add_noise_to_object(obj: bpy.types.Object, sigma: float, seed: int) -> None:
     ValueError
         With a sentence that begins with the object's name. The mesh is as it was.
     """
+    from .run.shape import check_shape, shape_of, write_shape
+
     check_shape(obj)
     import numpy as np
 

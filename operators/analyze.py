@@ -6,7 +6,6 @@ import bpy
 from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from .bands.bands import analyze_object, clear_object, megabytes_text
 from .colors.viewport import hide_unused_colors
 from .mesh_io import band_storage
 from .modifier import offsets
@@ -30,6 +29,8 @@ class OBJECT_OT_framelet_analyze(FrameMixin, LevelsMixin, StoreMixin, bpy.types.
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Analyze every target."""
+        from .bands.bands import analyze_object, megabytes_text
+
         done = targets.run_on_targets(
             self,
             context,
@@ -70,6 +71,8 @@ class OBJECT_OT_framelet_clear(bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Clear every target."""
+        from .bands.bands import clear_object
+
         done = targets.run_on_targets(self, context, lambda obj, _progress: clear_object(obj))
         if not done:
             return {"CANCELLED"}

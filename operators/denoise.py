@@ -9,7 +9,6 @@ from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.app.translations import pgettext_tip as tip_
 
-from .denoise_report import report_written
 from .preview import targets
 from .preview.current_preview import end_preview
 from .properties.own_settings import remember_settings, shown_settings
@@ -17,9 +16,7 @@ from .properties.region_settings import RegionMixin
 from .properties.region_values import as_typed, to_region_options
 from .properties.setting_values import all_values, fill, to_settings
 from .properties.settings import OutputMixin, SettingsMixin
-from .properties.unused_values import unused_sentences
 from .run.current_run import IS_RUNNING, current_run, set_current
-from .run.denoise_run import DenoiseRun, State, begin_run
 from .run.run_display import RunDisplay
 from .window_events import cancels, is_mesh_being_read
 
@@ -87,6 +84,8 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, RegionMixin, bpy.ty
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Look at the run at each tick; Esc and a right click in the view cancel, all else is Blender's."""
+        from .run.denoise_run import State
+
         try:
             if cancels(context, event):
                 self._run.cancel()
@@ -125,6 +124,9 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, RegionMixin, bpy.ty
 
     def _begin(self, context: bpy.types.Context) -> bool:
         """Read the targets; report why not if there is nothing to do."""
+        from .properties.unused_values import unused_sentences
+        from .run.denoise_run import DenoiseRun, begin_run
+
         settings = to_settings(self)
         if bpy.app.background or not (self.options.is_invoke or self.options.is_repeat):
             # Only a script names what has no effect; the sidebar does not show it.
@@ -161,6 +163,9 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, RegionMixin, bpy.ty
 
     def _finish(self, context: bpy.types.Context) -> set[str]:
         """Write what came of the run, and report it."""
+        from .denoise_report import report_written
+        from .run.denoise_run import State
+
         run = self._run
         if run.state is State.CANCELED:
             self.report({"INFO"}, rpt_(CANCELED))

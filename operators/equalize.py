@@ -9,7 +9,6 @@ from collections.abc import Sequence
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from .bands.live_equalizer import make_live
 from .bands.transforms import equalizer_of
 from .mesh_io import mesh_bridge
 from .preview import targets
@@ -18,7 +17,6 @@ from .properties.region_values import as_typed
 from .properties.scene_units import displacement_in_scene, length_text
 from .properties.settings import FrameMixin
 from .reports.filled_reports import forget_estimate
-from .run.shape import check_shape, shape_of, write_shape
 
 
 def equalize_object(
@@ -56,6 +54,8 @@ def equalize_object(
     ValueError
         With a sentence that names the object. The mesh is as it was.
     """
+    from .run.shape import check_shape, shape_of, write_shape
+
     check_shape(obj)
     import numpy as np
 
@@ -102,6 +102,8 @@ class OBJECT_OT_framelet_live_equalizer(FrameMixin, EqualizerMixin, bpy.types.Op
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Store the scales of every target."""
+        from .bands.live_equalizer import make_live
+
         gains = [as_typed(getattr(self, name)) for name in GAIN_NAMES[: self.levels]]
         done = targets.run_on_targets(
             self,

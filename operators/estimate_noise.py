@@ -10,8 +10,6 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from .mesh_io import mesh_bridge
-from .mesh_io.region_bridge import read_region
-from .modifier.multires import multires_refusal
 from .preview import targets
 from .properties.output_choices import IN_PLACE
 from .properties.own_settings import settings_of
@@ -19,7 +17,6 @@ from .properties.region_options import RegionOptions
 from .properties.region_values import to_region_options
 from .properties.scene_units import length_in_scene, noise_text
 from .reports.filled_reports import MeasuredNoise, fill_estimate
-from .run.shape import shape_of
 
 
 def estimate_object_noise(obj: bpy.types.Object, options: RegionOptions | None = None) -> MeasuredNoise:
@@ -38,6 +35,10 @@ def estimate_object_noise(obj: bpy.types.Object, options: RegionOptions | None =
     ValueError
         With a sentence that names the object.
     """
+    from .mesh_io.region_bridge import read_region
+    from .modifier.multires import multires_refusal
+    from .run.shape import shape_of
+
     reason = mesh_bridge.kind_refusal(obj) or multires_refusal(obj, IN_PLACE)
     if reason is not None:
         raise ValueError(reason)

@@ -12,9 +12,7 @@ import bpy
 from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from .colors.coloring import chosen_limit, color_objects
 from .colors.heat_settings import LIMITS, TOLERANCES, HeatMixin, shown_heat_names
-from .colors.heat_values import QUANTITIES, heat_values
 from .colors.viewport import hide_unused_colors, show_vertex_colors
 from .mesh_io import band_storage
 from .preview import targets
@@ -35,6 +33,9 @@ def show_heat(
 
     Quantities that have an attribute of their own are written there too.
     """
+    from .colors.coloring import color_objects
+    from .colors.heat_values import QUANTITIES
+
     kind = QUANTITIES[quantity]
     colored = color_objects(
         list(found.values()),
@@ -65,6 +66,8 @@ def refresh_heat(context: bpy.types.Context, objects: Iterable[bpy.types.Object]
     Where that cannot be, as in Edit Mode, where attributes cannot be written, colors and legend are of the
     run before, and the legend goes.
     """
+    from .colors.heat_values import QUANTITIES, heat_values
+
     shown = context.window_manager.framelet_band_range
     colored = [obj for obj in objects if band_storage.HEAT_COLORS in obj.data.attributes]
     if shown.quantity not in QUANTITIES or not colored:
@@ -78,6 +81,9 @@ def refresh_heat(context: bpy.types.Context, objects: Iterable[bpy.types.Object]
 
 def _heat_limit(properties: Any, found: dict[str, BandValues], quantity: str) -> float:
     """Return the value of the last color; raise ValueError if it was given as something else."""
+    from .colors.coloring import chosen_limit
+    from .colors.heat_values import QUANTITIES
+
     values = [item.values for item in found.values()]
     unit = QUANTITIES[quantity].unit
     limit = chosen_limit(properties, values, LIMITS[unit])
@@ -115,6 +121,8 @@ class OBJECT_OT_framelet_heat_map(HeatMixin, bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Find the values of all targets, then color them with one range."""
+        from .colors.heat_values import QUANTITIES, heat_values
+
         kind = QUANTITIES[self.quantity]
         done = targets.run_on_targets(self, context, lambda obj, _progress: heat_values(obj, self.quantity))
         if not done:

@@ -7,8 +7,7 @@ from __future__ import annotations
 import bpy
 from bpy.app.translations import pgettext_n as n_
 
-from .denoise_report import report_written
-from .preview import preview_session, targets
+from .preview import targets
 from .preview.current_preview import current_preview, end_preview, start_preview
 from .properties.own_settings import settings_of
 from .run.current_run import IS_RUNNING, current_run
@@ -26,6 +25,8 @@ class OBJECT_OT_framelet_preview(bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Ask for an active mesh in Object Mode, unless the preview is on."""
+        from .preview.preview_session import MOST_VERTICES
+
         if current_preview() is not None:
             return True
         obj = context.active_object
@@ -36,7 +37,7 @@ class OBJECT_OT_framelet_preview(bpy.types.Operator):
             reason = n_("Make a mesh object active")
         elif context.mode != "OBJECT":
             reason = n_("Switch to Object Mode")
-        elif len(obj.data.vertices) > preview_session.MOST_VERTICES:
+        elif len(obj.data.vertices) > MOST_VERTICES:
             reason = n_("The mesh has too many vertices for a preview; press Denoise")
         return targets.allows(cls, reason)
 
@@ -95,6 +96,8 @@ class OBJECT_OT_framelet_apply_preview(bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Write it, and report it as a run."""
+        from .denoise_report import report_written
+
         session = current_preview()
         assert session is not None  # see `poll`
         try:

@@ -13,14 +13,11 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.settings.outliers import SPIKE_LENGTH, SPIKE_VERTICES
 from .mesh_io import mesh_bridge
-from .mesh_io.region_bridge import read_region
-from .modifier.multires import find_multires
 from .modifier.recipes import DISPLACEMENT
 from .modifier.stack import find_modifier
 from .preview import targets
 from .properties.region_options import RegionOptions
 from .properties.region_values import as_typed
-from .run.shape import check_cage, check_shape, shape_of, write_shape
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -85,6 +82,8 @@ def flatten_spikes(obj: bpy.types.Object, length: float = SPIKE_LENGTH, most: in
         With a sentence that names the object. The mesh is as it was.
     """
     from ..core.mesh.spikes import find_spikes, flattened
+    from .mesh_io.region_bridge import read_region
+    from .run.shape import check_shape, shape_of, write_shape
 
     check_shape(obj)
     if find_modifier(obj, DISPLACEMENT) is not None:
@@ -110,6 +109,9 @@ def _select_on_targets(
     found: str,
 ) -> set[str]:
     """Select, in Edit Mode, what is found of every target; `found` is the sentence that says how much."""
+    from .modifier.multires import find_multires
+    from .run.shape import check_cage
+
     objects = targets.target_objects(context)
     if not any(obj.data.is_editmode for obj in objects) and any(
         find_multires(obj) is None for obj in objects

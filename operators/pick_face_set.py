@@ -9,7 +9,6 @@ from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 from bpy_extras import view3d_utils
 
-from .mesh_io.face_sets import face_set_under
 from .preview import targets
 from .window_events import view_under_mouse
 
@@ -64,6 +63,8 @@ NAVIGATION = frozenset({"MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE", "MOUSEM
 
 def _number_under_mouse(context: bpy.types.Context, event: bpy.types.Event) -> int | None:
     """Return the number of the face set of the active mesh under the mouse, if there is one."""
+    from .mesh_io.face_sets import face_set_under
+
     found = view_under_mouse(context, event)
     if found is None:
         return None

@@ -7,8 +7,6 @@ from __future__ import annotations
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from .bands.band_values import BandChoice, choose_values
-from .colors.coloring import chosen_limit, color_objects
 from .colors.viewport import show_vertex_colors
 from .preview import targets
 from .properties.band_settings import ShowMixin, shown_names
@@ -39,6 +37,9 @@ class OBJECT_OT_framelet_show_band(ShowMixin, bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Choose the values of all targets, then color them with one range."""
+        from .bands.band_values import BandChoice, choose_values
+        from .colors.coloring import chosen_limit, color_objects
+
         choice = BandChoice(self.content, self.level, self.band, self.component)
         done = targets.run_on_targets(self, context, lambda obj, _progress: choose_values(obj, choice))
         if not done:

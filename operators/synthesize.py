@@ -5,7 +5,6 @@
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from .bands.bands import synthesize_object
 from .preview import targets
 from .properties.scene_units import displacement_in_scene, length_text
 from .reports.filled_reports import forget_estimate
@@ -25,6 +24,8 @@ class OBJECT_OT_framelet_synthesize(bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Rebuild every target."""
+        from .bands.bands import synthesize_object
+
         done = targets.run_on_targets(
             self, context, lambda obj, _progress: displacement_in_scene(obj, *synthesize_object(obj))
         )

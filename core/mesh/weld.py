@@ -141,10 +141,12 @@ def _linked(vertices: NDArray[np.floating], groups: NDArray[np.int64], distance:
     n = int(groups.max()) + 1 if len(groups) else 0
     points = np.empty((n, 3))
     points[groups] = vertices
-    return _components_within(points, distance)[groups]
+    return components_within(points, distance)[groups]
 
 
-def _components_within(points: NDArray[np.float64], distance: float) -> NDArray[np.int32]:
+def components_within(
+    points: NDArray[np.float64], distance: float, most_pairs: int = MOST_PAIRS
+) -> NDArray[np.int32]:
     """Return the component of each point, shape (n,), where points at most `distance` apart are linked.
 
     The points are sorted into cells as wide as the distance; partners are in the same or an adjacent cell.
@@ -174,7 +176,7 @@ def _components_within(points: NDArray[np.float64], distance: float) -> NDArray[
         total = np.concatenate(([0], np.cumsum(counts)))
         start = 0
         while start < n:
-            stop = max(int(np.searchsorted(total, total[start] + MOST_PAIRS, side="right")) - 1, start + 1)
+            stop = max(int(np.searchsorted(total, total[start] + most_pairs, side="right")) - 1, start + 1)
             one = np.repeat(np.arange(start, stop), counts[start:stop])
             other = order[stretches(begin[start:stop], counts[start:stop])]
             start = stop
@@ -184,7 +186,7 @@ def _components_within(points: NDArray[np.float64], distance: float) -> NDArray[
             is_close = np.einsum("pi,pi->p", step, step) <= distance * distance
             found.append((one[is_close], other[is_close]))
             n_found += len(found[-1][0])
-            if n_found > MOST_PAIRS // 4:
+            if n_found > most_pairs // 4:
                 component = _joined_by(component, found)
                 found, n_found = [], 0
                 if not component.any():

@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from bpy.app.translations import pgettext_n as n_
 
-from ..bands.band_values import BandValues
 from ..mesh_io.band_storage import NOISE, NOISE_WIDTH
 from ..properties.scene_units import linear_part, surface_in_scene
 from ..run.run_memory import recall
 
 if TYPE_CHECKING:
     import bpy
+
+    from ..bands.band_values import BandValues
 
 
 class Quantity(NamedTuple):
@@ -57,6 +58,8 @@ def heat_values(obj: bpy.types.Object, quantity: str) -> BandValues:
     ValueError
         In one sentence, if the mesh was not denoised or was changed since.
     """
+    from ..bands.band_values import BandValues
+
     run, surface, _ = recall(obj)
     before = surface_in_scene(obj, surface.with_vertices(run.before))
     after = surface_in_scene(obj, surface.with_vertices(run.after))

@@ -14,10 +14,10 @@ from ..properties.region_values import to_region_options
 from ..properties.setting_values import to_settings
 from ..run.run_display import redraw_sidebars
 from ..window_events import is_mesh_being_read
-from .preview_session import PreviewSession, begin_preview
 
 if TYPE_CHECKING:
     from ..run.run_guard import Mark
+    from .preview_session import PreviewSession
 
 TICK = 0.03
 """Seconds between two looks at the settings."""
@@ -61,6 +61,8 @@ def start_preview(obj: bpy.types.Object, scene: bpy.types.Scene) -> PreviewSessi
     ValueError
         In one sentence, if there can be none.
     """
+    from .preview_session import begin_preview
+
     global _session, _message
     end_preview()
     current_preview()

@@ -11,6 +11,19 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 ALLOWED = {"core", "core.settings", "core.errors", "core.processors"}
 """Rooms of core that are read before anything is computed."""
 
+NO_ROOMS = ("core.learned", "core.methods", "core.transform", "core.mesh")
+UNUSED = {
+    "operators.bands.bands",
+    "operators.denoise_report",
+    "operators.preview.preview_session",
+    "operators.run.assembly",
+    "operators.run.denoise_job",
+    "operators.run.denoise_object",
+    "operators.run.denoise_run",
+    "operators.run.output",
+}
+"""Modules that only a run, a preview or an analysis needs: they are imported where they are used."""
+
 PROGRAM = """
 import importlib.util, json, sys
 import bpy
@@ -38,5 +51,6 @@ def test_enabling_imports_no_numpy_and_nothing_that_computes():
     loaded = json.loads(done.stdout.strip().splitlines()[-1])
     ours = {name.partition(".")[2] for name in loaded if name.startswith("framelet.")}
     assert "operators.denoise" in ours
+    assert not {name for name in ours if name in UNUSED or name.startswith(NO_ROOMS)}
     assert {".".join(name.split(".")[:2]) for name in ours if name.split(".")[0] == "core"} <= ALLOWED
     assert not [name for name in loaded if name.split(".")[0] == "numpy"]

@@ -8,7 +8,6 @@ import bpy
 from bpy.app.translations import pgettext_iface as iface_
 
 from ...operators.analyze import OBJECT_OT_framelet_analyze, OBJECT_OT_framelet_clear
-from ...operators.bands.bands import megabytes_text
 from ...operators.equalize import OBJECT_OT_framelet_equalize, OBJECT_OT_framelet_live_equalizer
 from ...operators.mesh_io import band_storage, mesh_facts
 from ...operators.modifier.recipes import EQUALIZER, recipe_of
@@ -32,6 +31,8 @@ class VIEW3D_PT_framelet_bands(FrameletPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw what is stored, and what can be done with it."""
+        from ...operators.bands.bands import megabytes_text
+
         layout, scene = self.layout, context.scene
         bands, settings = scene.framelet_bands, shown_settings(context)
         if not has_effect(settings.method, "frame"):

@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 from checks import assert_same_bits, edge_length, lengths, wild_mesh
 from framelet.core import PRESETS, PreparationCache, Region, SurfaceMesh, denoise, prepare
-from framelet.core.mesh import weld
 from framelet.core.mesh.connectivity import connect
-from framelet.core.mesh.weld import make_weld, same_places
+from framelet.core.mesh.weld import components_within, make_weld, same_places
 from meshes import faces_of, flipped, mixed_sheet, noisy, quad_grid, quad_torus, triangle_grid, triangle_torus
 from region_cases import METHODS, box, exploded, renumbered
 
@@ -229,7 +228,7 @@ def test_a_wide_distance_takes_little_memory(distance, rng):
     points = rng.random((6000, 3))
     tracemalloc.start()
     try:
-        component = weld._components_within(points, distance)
+        component = components_within(points, distance)
         peak = tracemalloc.get_traced_memory()[1]
     finally:
         tracemalloc.stop()
@@ -247,11 +246,10 @@ def test_links_may_be_many_enough_in_the_last_portion(rng):
     assert make_weld(mesh, 1.0).vertex.tolist() == [0, 1, 2] + [3] * 380
 
 
-def test_components_do_not_depend_on_how_many_pairs_are_looked_at_together(rng, monkeypatch):
+def test_components_do_not_depend_on_how_many_pairs_are_looked_at_together(rng):
     points = rng.random((400, 3)) * [1, 1, 0.1]
-    whole = weld._components_within(points, 0.04)
-    monkeypatch.setattr(weld, "MOST_PAIRS", 8)
-    parts = weld._components_within(points, 0.04)
+    whole = components_within(points, 0.04)
+    parts = components_within(points, 0.04, most_pairs=8)
     links = np.linalg.norm(points[:, None] - points, axis=2) <= 0.04
     assert 10 < len(np.unique(whole)) < 390
     assert (whole[:, None] == whole)[links].all()
