@@ -33,8 +33,8 @@ def noise_table(lines: Sequence[Line]) -> str:
     head = ["Noise", "Cases", "Noisy", "Default", "Tuned", "AUTO", "AUTO / default", "AUTO / tuned"]
     names = ("noisy_angle", "default_angle", "tuned_angle", "auto_angle", "over_default", "over_tuned")
     body = []
-    kinds = {"All white": True, "All others": False}
-    for noise in (*filter(is_white, NOISES), "All white", *_others(), "All others"):
+    kinds = {"All white": True, "All like scanners'": False}
+    for noise in (*filter(is_white, NOISES), "All white", *_others(), "All like scanners'"):
         own = [line for line in lines if line.noise == noise or kinds.get(noise) is is_white(line.noise)]
         if own:
             body.append([noise, str(len(own)), *(_mean(own, name) for name in names)])
