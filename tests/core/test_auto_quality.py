@@ -42,7 +42,7 @@ def test_noise_is_taken_away(name, sigma, which, rng):
     assert after.mean_angle < 0.5 * before.mean_angle
     # The vertices of hexagons come together at 0.04 edges, whatever the noise.
     assert (
-        after.rms_distance < (1.0 if name == "hexagon torus" and sigma < 0.1 else 0.6) * before.rms_distance
+        after.rms_distance < (1.0 if name == "hexagon torus" and sigma < 0.1 else 0.7) * before.rms_distance
     )
 
 
