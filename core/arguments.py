@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from .errors import MeshError, SettingError
 from .mesh.surface_mesh import SurfaceMesh
 from .settings import PRESETS, DenoiseSettings
+from .value_checks import check_choice
 
 
 def as_mesh(
@@ -67,14 +68,15 @@ def as_settings(
     ...
     framelet.core.errors.SettingError: There is no setting strenght; choose from method, strength, noise, ...
     """
+    if settings is not None and not isinstance(settings, DenoiseSettings | str):
+        raise SettingError(f"The settings are {settings!r}; give DenoiseSettings or the name of a preset.")
     if settings is not None and preset is not None:
         raise SettingError("There are settings and a preset; give one of them.")
     base = settings if isinstance(settings, DenoiseSettings) else DenoiseSettings()
     name = settings if isinstance(settings, str) else preset
     if name is not None:
         key = as_identifier(name) if isinstance(name, str) else name
-        if key not in PRESETS:
-            raise SettingError(f"The preset is {name!r}; choose one of {', '.join(PRESETS)}.")
+        check_choice("The preset", key, PRESETS)
         base = PRESETS[key].settings
     infos = {item.name: item.metadata["info"] for item in fields(DenoiseSettings)}
     changes = dict(values)

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .processors import default_threads
+from .value_checks import check_number
 
 Result = TypeVar("Result")
 
@@ -45,6 +46,7 @@ class Blocks:
     """
 
     def __init__(self, n_threads: int = 0, block_size: int = BLOCK_SIZE) -> None:
+        check_number("The number of threads", n_threads, 0, is_whole=True)
         self.n_threads = n_threads or default_threads()
         self.block_size = block_size
         self._pool: ThreadPoolExecutor | None = None

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from .blocks import Stopped
+from .errors import RegionError
 from .limits.finish import finish
 from .limits.region import Region
 from .limits.resolved_region import resolve
@@ -23,6 +24,7 @@ from .preparation_cache import PreparationCache, prepared_for
 from .prepared import Prepared
 from .report import DenoiseResult, account, stopped_report
 from .settings import DEFAULT_PRESET, PRESETS, DenoiseSettings
+from .value_checks import as_precision
 
 
 def denoise(
@@ -77,7 +79,11 @@ def denoise(
     """
     began = perf_counter()
     settings = settings or PRESETS[DEFAULT_PRESET].settings
-    region = region or Region()
+    if region is None:
+        region = Region()
+    if not isinstance(region, Region):
+        raise RegionError(f"The region is {region!r}; give a Region.")
+    dtype = as_precision(dtype)
     resolved = resolve(region, surface, movable)  # what the region says about each vertex
     check_memory(surface, settings, max_bytes)
     try:

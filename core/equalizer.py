@@ -18,6 +18,7 @@ from .mesh.normalization import displaced, normalize
 from .mesh.surface_mesh import SurfaceMesh
 from .settings import DenoiseSettings
 from .transform import choose_frame, make_transform
+from .value_checks import check_number
 
 HIGHEST_GAIN = 100.0
 
@@ -154,7 +155,7 @@ class Equalizer:
 
     def equalized(self, gains: Sequence[float], *, weights: ArrayLike | None = None) -> NDArray[np.floating]:
         """Return the positions, shape (N, 3), with a gain for each level, finest first; see `equalize`."""
-        shares = None if weights is None else np.asarray(weights, np.float64)
+        shares = None if weights is None else np.asarray(weights)
         check_gains(gains, shares, len(self._vertices))
         if len(gains) != self.n_levels:
             raise SettingError(f"There are {len(gains)} gains for {self.n_levels} levels; give one for each.")
@@ -184,16 +185,15 @@ class Equalizer:
 
 def check_gains(gains: Sequence[float], weights: NDArray[np.floating] | None, n_vertices: int) -> None:
     """Raise SettingError unless gains and weights can be used."""
-    if not len(gains):
+    if np.ndim(gains) != 1 or not len(gains):
         raise SettingError("There are no gains; give one for each level, finest first.")
     for level, gain in enumerate(gains, 1):
-        if not 0.0 <= gain <= HIGHEST_GAIN:  # also refuses NaN
-            raise SettingError(
-                f"The gain of level {level} is {gain:g}; it must be from 0 to {HIGHEST_GAIN:g}."
-            )
+        check_number(f"The gain of level {level}", gain, 0.0, HIGHEST_GAIN)
     if weights is not None:
         if np.shape(weights) != (n_vertices,):
             raise SettingError(f"The weights have shape {np.shape(weights)}; expected ({n_vertices},).")
+        if weights.dtype.kind not in "biuf":
+            raise SettingError(f"The weights are {weights.dtype}; expected real numbers.")
         wrong = ~((weights >= 0.0) & (weights <= 1.0))  # NaN is wrong, too
         if wrong.any():
             vertex = int(np.flatnonzero(wrong)[0])

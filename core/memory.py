@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from .errors import TooLargeError
 from .mesh.surface_mesh import SurfaceMesh
 from .settings import DenoiseSettings
+from .value_checks import check_number
 
 BASE_PER_VERTEX = 110
 BASE_PER_CORNER = 45
@@ -172,6 +173,7 @@ def check_memory(surface: SurfaceMesh, settings: DenoiseSettings, max_bytes: int
     """Raise TooLargeError, in one sentence, if a run takes more memory than it may; None for no limit."""
     if max_bytes is None:
         return
+    check_number("The memory that a run may take", max_bytes, 0)
     needed = estimated_bytes(surface.n_vertices, surface.n_corners, settings, high_valences(surface))
     if needed > max_bytes:
         raise TooLargeError(

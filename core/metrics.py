@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .errors import MeshError
+from .mesh.checks import check_positions
 from .mesh.geometry import face_normals, mean_edge_length
 from .mesh.surface_mesh import SurfaceMesh
 
@@ -55,17 +56,23 @@ def compare(surface: SurfaceMesh, reference: SurfaceMesh) -> Comparison:
         )
     if not surface.n_faces:
         raise MeshError("The meshes have no faces; there is nothing to compare.")
-    edge = mean_edge_length(reference)
+    for mesh in (surface, reference):
+        check_positions(mesh)
+        edge = mean_edge_length(mesh)
+        if not np.isfinite(edge):
+            raise MeshError("A mesh is too large to measure its edges; scale both down first.")
     if not edge > 0.0:
         raise MeshError("The reference has no size: all its faces have shrunk to points.")
-    distance = np.linalg.norm(surface.vertices.astype(np.float64) - reference.vertices, axis=1)
+    apart = surface.vertices.astype(np.float64) - reference.vertices
+    unit = np.ldexp(1.0, np.frexp(np.abs(apart).max())[1])  # squares of large distances are no numbers
+    distance = np.linalg.norm(apart / unit, axis=1)
     angle = normal_angles(face_normals(surface), face_normals(reference))
     angle = angle[np.isfinite(angle)]
     return Comparison(
         mean_angle=float(angle.mean()) if len(angle) else 0.0,
         max_angle=float(angle.max()) if len(angle) else 0.0,
-        rms_distance=float(np.sqrt(np.mean(distance**2))),
-        max_distance=float(distance.max()),
+        rms_distance=float(np.sqrt(np.mean(distance**2)) * unit),
+        max_distance=float(distance.max() * unit),
         mean_edge_length=edge,
         flipped_faces=int((angle > 90.0).sum()),
     )

@@ -116,6 +116,10 @@ def _select_on_targets(
     if not any(obj.data.is_editmode for obj in objects) and any(
         find_multires(obj) is None for obj in objects
     ):
+        refusal = mesh_bridge.ownership_refusal(context.active_object)
+        if refusal is not None:
+            operator.report({"ERROR"}, refusal)
+            return {"CANCELLED"}
         bpy.ops.object.mode_set(mode="EDIT")
 
     def select(obj: bpy.types.Object, _progress: targets.Progress) -> int:

@@ -19,13 +19,24 @@ if TYPE_CHECKING:
 
 def positions_of(vertices: ArrayLike) -> NDArray[np.floating]:
     """Return positions as an array of float32 or float64, shape (N, 3)."""
-    positions = np.asarray(vertices)
+    check_known(vertices, "positions")
+    try:
+        positions = np.asarray(vertices)
+    except ValueError as error:  # of rows that differ in length
+        raise MeshError("The positions are no array; expected shape (N, 3).") from error
     if positions.dtype.kind not in "iuf":
         raise MeshError(f"The positions are {positions.dtype}; expected real numbers.")
     if positions.dtype != np.float32:
         positions = positions.astype(np.float64)
     check_shape(positions)
     return positions
+
+
+def check_known(values: Any, name: str) -> None:
+    """Raise MeshError if these are a masked array with masked values, which nobody knows."""
+    if np.ma.is_masked(values):
+        n_masked = np.count_nonzero(np.ma.getmaskarray(values))
+        raise MeshError(f"The {name} have {n_masked} masked values; fill them first.")
 
 
 def check_shape(positions: NDArray[np.floating]) -> None:
@@ -42,8 +53,9 @@ def corner_list(
     faces: ArrayLike | Sequence[Sequence[int]],
 ) -> tuple[NDArray[np.integer], NDArray[np.int32]]:
     """Return the vertices of all corners, shape (C,), and the first corner of each face, shape (F + 1,)."""
+    check_known(faces, "faces")
     if isinstance(faces, np.ndarray) and faces.ndim == 2:
-        flat = whole_numbers(faces, "faces").reshape(-1)
+        flat = whole_numbers(np.asarray(faces), "faces").reshape(-1)
         return flat, np.arange(len(faces) + 1, dtype=np.int32) * np.int32(faces.shape[1])
     if not isinstance(faces, Iterable):
         raise MeshError(f"The faces are {faces!r}; expected an array of shape (F, k) or a list of lists.")

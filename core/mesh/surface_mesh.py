@@ -167,11 +167,9 @@ class SurfaceMesh:
         Raises
         ------
         MeshError
-            If the shape is another one.
+            If the shape is another one, or these are no real numbers.
         """
-        positions = np.asarray(vertices)
-        if positions.dtype not in (np.float32, np.float64):
-            positions = positions.astype(np.float64)
+        positions = positions_of(vertices)
         if positions.shape != self.vertices.shape:
             raise MeshError(f"The positions have shape {positions.shape}; expected {self.vertices.shape}.")
         return SurfaceMesh.trusted(

@@ -11,6 +11,7 @@ from ..errors import SettingError
 from ..mesh.checks import check_surface
 from ..mesh.geometry import vertex_normals
 from ..mesh.surface_mesh import SurfaceMesh
+from ..value_checks import check_number
 
 PAPER_SIGMA = 0.2
 """Standard deviation in the paper's experiments, in mean edge lengths (section 4.2)."""
@@ -39,9 +40,13 @@ def add_noise(surface: SurfaceMesh, sigma: float = PAPER_SIGMA, seed: int = 0) -
         If sigma is negative or not finite, or the mesh has no faces, no size or positions that are not
         finite.
     """
-    if not 0.0 <= sigma < np.inf:
-        raise SettingError(f"The noise level is {sigma:g}; it must be zero or a positive number.")
+    check_number("The noise level", sigma, 0.0)
+    check_number("The seed", seed, 0, is_whole=True)
     edge = check_surface(surface)
-    offset = np.random.default_rng(seed).normal(0.0, sigma * edge, surface.n_vertices)
-    vertices = surface.vertices + offset[:, None] * vertex_normals(surface)
-    return vertices.astype(surface.vertices.dtype)
+    offset = np.random.default_rng(seed).normal(0.0, 1.0, surface.n_vertices)
+    with np.errstate(over="ignore", invalid="ignore"):
+        vertices = surface.vertices + (offset * (float(sigma) * edge))[:, None] * vertex_normals(surface)
+        noisy = vertices.astype(surface.vertices.dtype)
+    if not np.isfinite(noisy).all():
+        raise SettingError(f"The noise level is {sigma:g}; with it there are no numbers for the positions.")
+    return noisy

@@ -4,12 +4,11 @@
 
 from __future__ import annotations
 
-import sys
 from dataclasses import dataclass, field
-from numbers import Integral, Real
 from typing import Any
 
 from ..errors import SettingError
+from ..value_checks import check_choice, check_number
 from .choices import Choice
 
 
@@ -57,19 +56,12 @@ def check_value(info: SettingInfo, kind: str, value: Any) -> None:
         return
     if info.choices:
         names = [choice.identifier for choice in info.choices]
-        if value not in names:
-            raise SettingError(f"{label} is {value!r}; choose one of {', '.join(names)}.")
+        check_choice(label, value, names)
         return
     if kind in ("bool", "str"):
         if type(value).__name__ != kind:
             wanted = "True or False" if kind == "bool" else "a text"
             raise SettingError(f"{label} is {value!r}; it must be {wanted}.")
         return
-    is_number = isinstance(value, Integral if kind == "int" else Real)
-    if not is_number or type(value) is bool:
-        raise SettingError(f"{label} is {value!r}; it must be a {'whole ' if kind == 'int' else ''}number.")
     assert info.minimum is not None and info.maximum is not None
-    if not info.minimum <= value <= info.maximum:  # also refuses NaN
-        is_huge = isinstance(value, int) and abs(value) > sys.float_info.max
-        shown = "a huge number" if is_huge else f"{value:g}"
-        raise SettingError(f"{label} is {shown}; it must be between {info.minimum:g} and {info.maximum:g}.")
+    check_number(label, value, info.minimum, info.maximum, is_whole=kind == "int")

@@ -17,6 +17,7 @@ from ..mesh.surface_mesh import SurfaceMesh
 from ..stencils import make_stencil
 from ..stencils.dilation import dilate
 from ..stencils.ring_points import one_ring_points
+from ..value_checks import as_precision
 from .adaptive_level import AdaptiveLevel, Neighbors, ring_neighbors
 from .frame_transform import FrameTransform
 from .lattice_level import LatticeLevel
@@ -61,19 +62,18 @@ def make_transform(
     FrameError
         If the frame is not known or does not fit the mesh, or the mesh is too small for so many levels.
     """
+    dtype = as_precision(dtype)
     blocks = blocks or Blocks(1)
     connectivity = connectivity or connect(surface, blocks)
     frame = choose_frame(frame, connectivity) if isinstance(frame, str) else frame
-    name = frame if isinstance(frame, str) else frame.name
-    if isinstance(frame, str) and frame not in BANKS and frame not in FAMILIES:
+    name = frame.name if isinstance(frame, FilterBank) else frame
+    if not isinstance(frame, FilterBank) and (not isinstance(frame, str) or frame not in {*BANKS, *FAMILIES}):
         raise FrameError(f"The frame is {frame!r}; choose one of {', '.join([*BANKS, *FAMILIES])}.")
     if levels < 1:
         raise FrameError(f"The number of levels is {levels}; it must be at least 1.")
     if stencil == "ADAPTIVE" or name in FAMILIES:
         family = FAMILIES["PAIRWISE" if name == "PAIRWISE" else "ADAPTIVE"]
-        return _adaptive_transform(
-            surface, family, name, levels, boundary, connectivity, blocks, np.dtype(dtype)
-        )
+        return _adaptive_transform(surface, family, name, levels, boundary, connectivity, blocks, dtype)
     bank = BANKS[frame] if isinstance(frame, str) else frame
     check_fit(bank, connectivity)
     bands = bank.used_bands if only_used_bands else None

@@ -104,6 +104,7 @@ def _in_folder(folder: Path, endings: tuple[str, ...], left_out: Path) -> list[P
             name for name in folders if not name.startswith(".") and not _is_below(here / name, left_out)
         ]
         files += [here / name for name in names if name.lower().endswith(endings) and name[0] != "."]
+    files = [file for file in files if not file.is_fifo()]  # a pipe that nobody writes to would stop all
     return sorted(files) if not _is_below(folder, left_out) else []
 
 

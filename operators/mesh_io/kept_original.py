@@ -103,9 +103,11 @@ def _put_back(
 
     is_ours = original.any(axis=1) | shown.any(axis=1)
     ours, present = shown[is_ours].astype(np.float64), now[is_ours].astype(np.float64)
-    if np.array_equal(ours, present):
+    if np.array_equal(ours, present, equal_nan=True):
         # With the original's own bits. It has zeros for the others, which stay.
         return np.where(np.expand_dims(is_ours, 1), original, now)
+    if not (np.isfinite(ours).all() and np.isfinite(present).all()):
+        return None
     source, target = ours - ours.mean(axis=0), present - present.mean(axis=0)
     linear = _linear_map(source, target)
     deviation = np.abs(source @ linear.T - target).max()

@@ -12,6 +12,7 @@ import sys
 
 import pytest
 from framelet.core.settings import DenoiseSettings
+from framelet.operators.batch.inputs import find_files
 from framelet.operators.batch.lock import ReportLock
 from framelet.operators.command_line import main
 from framelet.operators.files import open_file
@@ -351,3 +352,11 @@ def test_a_bar_on_a_terminal(scans, tmp_path, monkeypatch, capsys):
     assert batch(scans, "--out", tmp_path / "lines", *QUICK) == 1
     assert "7/7 [" not in sys.stderr.getvalue()
     assert capsys.readouterr().out.count("vertices, moved by") == 6
+
+
+@pytest.mark.skipif(os.name == "nt", reason="pipes of Unix")
+def test_pipes_in_a_folder_do_not_stop_it(scans, tmp_path):
+    os.mkfifo(scans / "pipe.obj")
+    (scans / "alias.obj").symlink_to(scans / "pipe.obj")
+    found = {path.source.name for path in find_files([str(scans)], (".obj", ".ply"), tmp_path / "out")}
+    assert found and not found & {"pipe.obj", "alias.obj"}

@@ -86,3 +86,32 @@ def test_small_islands_are_selected_and_the_largest_part_is_not(make_object):
     assert selected(obj) == list(range(144, 153))
     assert bpy.ops.object.framelet_select_islands(most=1000) == {"FINISHED"}
     assert selected(obj) == list(range(144, 189))
+
+
+OPERATORS = ("framelet_select_spikes", "framelet_select_islands")
+
+
+@pytest.mark.parametrize("name", OPERATORS)
+def test_a_linked_mesh_is_told(spiky, tmp_path, name):
+    """Blender refused Edit Mode, with a traceback."""
+    bpy.data.libraries.write(str(tmp_path / "rocks.blend"), {spiky})
+    with bpy.data.libraries.load(str(tmp_path / "rocks.blend"), link=True) as (there, here):
+        here.objects = there.objects
+    (rock,) = here.objects
+    bpy.context.collection.objects.link(rock)
+    spiky.select_set(False)
+    rock.select_set(True)
+    bpy.context.view_layer.objects.active = rock
+    with pytest.raises(RuntimeError, match="uses a mesh linked from") as error:
+        getattr(bpy.ops.object, name)()
+    assert "Traceback" not in str(error.value)
+
+
+@pytest.mark.parametrize("name", OPERATORS)
+def test_an_active_camera_is_told(spiky, name):
+    camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    bpy.context.collection.objects.link(camera)
+    bpy.context.view_layer.objects.active = camera
+    with pytest.raises(RuntimeError, match="‘Camera’ is not a mesh") as error:
+        getattr(bpy.ops.object, name)()
+    assert "Traceback" not in str(error.value)

@@ -136,6 +136,19 @@ def test_apply_goes_where_output_says(output, settings):
         assert_clean(new.data)
 
 
+@pytest.mark.parametrize("value", [np.nan, np.inf])
+def test_a_mesh_without_a_place_goes_back(settings, value):
+    """The end of the preview looked for a linear map between positions that are no numbers."""
+    obj = noisy_monkey()
+    obj.data.vertices[7].co.x = value
+    before = read_positions(obj.data)
+    settle(turn_on())
+    assert bpy.ops.object.framelet_preview() == {"FINISHED"}
+    assert current_preview.current_preview() is None
+    assert same(read_positions(obj.data), before)
+    assert_clean(obj.data)
+
+
 def test_wrong_settings_show_the_original_and_a_sentence(settings):
     surface_of = triangle_grid(9, 9)
     mesh = bpy.data.meshes.new("Grid")

@@ -157,10 +157,10 @@ NOTHING = SurfaceMesh.from_faces(np.zeros((0, 3)), [])
     ("mesh", "gains", "options", "message"),
     [
         (None, [], {}, r"^There are no gains; give one for each level, finest first\.$"),
-        (None, [1, np.nan], {}, r"^The gain of level 2 is nan; it must be from 0 to 100\.$"),
-        (None, [-0.5], {}, r"^The gain of level 1 is -0\.5; it must be from 0 to 100\.$"),
-        (None, [100.1], {}, r"^The gain of level 1 is 100\.1; it must be from 0 to 100\.$"),
-        (None, [np.inf], {}, r"^The gain of level 1 is inf; it must be from 0 to 100\.$"),
+        (None, [1, np.nan], {}, r"^The gain of level 2 is nan; it must be between 0 and 100\.$"),
+        (None, [-0.5], {}, r"^The gain of level 1 is -0\.5; it must be between 0 and 100\.$"),
+        (None, [100.1], {}, r"^The gain of level 1 is 100\.1; it must be between 0 and 100\.$"),
+        (None, [np.inf], {}, r"^The gain of level 1 is inf; it must be between 0 and 100\.$"),
         (
             None,
             [1] * 9,

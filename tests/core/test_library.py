@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The functions for scripts: what goes in and out, settings by keywords, penalties of one's own."""
 
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -29,6 +30,7 @@ from framelet.core.frames import BANKS
 from framelet.core.methods.proximal import norms
 from meshes import faces_of, mixed_sheet, noisy, quad_torus, triangle_torus
 
+surface = SurfaceMesh.from_faces
 KINDS = ("BANDS", "VECTOR", "SCALAR")
 
 
@@ -84,7 +86,7 @@ def test_a_bank_of_ones_own_denoises(rng):
         (
             lambda V, F: denoise(V, F, preset="nice"),
             SettingError,
-            "The preset is 'nice'; choose one of AUTO,",
+            "The preset is 'NICE'; choose one of AUTO,",
         ),
         (lambda V, F: denoise(V, F, preset="auto", settings=DenoiseSettings()), SettingError, "one of them"),
         (lambda V, F: denoise(V, F, method="magic"), SettingError, "Engine is 'MAGIC'; choose one of"),
@@ -238,3 +240,100 @@ def test_numbers_that_no_solver_takes_are_refused():
 
 def test_the_package_is_typed():
     assert (Path(core.__path__[0]).parent / "py.typed").exists()
+
+
+def ragged(positions):
+    return [[0.0, 1.0], *positions[1:].tolist()]
+
+
+@pytest.mark.parametrize(
+    ("call", "kind", "message"),
+    [
+        (
+            lambda V, F: denoise(ragged(V), F),
+            MeshError,
+            r"The positions are no array; expected shape \(N, 3\)",
+        ),
+        (
+            lambda V, F: denoise(np.ma.masked_less(V, 0), F),
+            MeshError,
+            r"The positions have \d+ masked values",
+        ),
+        (lambda V, F: denoise(V, np.ma.masked_equal(F, 3)), MeshError, r"The faces have \d+ masked values"),
+        (
+            lambda V, F: denoise(V, F, settings={"strength": 0.1}),
+            SettingError,
+            "The settings are {'strength'",
+        ),
+        (lambda V, F: denoise(V, F, preset=V), SettingError, "The preset is array"),
+        (lambda V, F: denoise(V, F, method=V), SettingError, "Engine is array"),
+        (lambda V, F: denoise(V, F, region=5), RegionError, "The region is 5; give a Region"),
+        (
+            lambda V, F: denoise(V, F, max_bytes="1 GB"),
+            SettingError,
+            "a run may take is '1 GB'; it must be a number",
+        ),
+        (
+            lambda V, F: core.estimate_noise(V, F, threads=2.0),
+            SettingError,
+            "threads is 2.0; it must be a whole",
+        ),
+        (
+            lambda V, F: core.estimate_noise(V, F, threads=-1),
+            SettingError,
+            "threads is -1; it must be a finite",
+        ),
+        (lambda V, F: core.equalize(surface(V, F), 0.5), SettingError, "There are no gains"),
+        (lambda V, F: core.equalize(surface(V, F), ["1"]), SettingError, "The gain of level 1 is '1'"),
+        (lambda V, F: core.equalize(surface(V, F), [10**400]), SettingError, "level 1 is a huge number"),
+        (
+            lambda V, F: core.equalize(surface(V, F), [1], weights=["1"] * len(V)),
+            SettingError,
+            "The weights are <U1; expected real numbers",
+        ),
+        (lambda V, F: core.equalize(surface(V, F), [1], frame=5), core.FrameError, "The frame is 5; choose"),
+        (lambda V, F: core.add_noise(V, "0.1", faces=F), SettingError, "The noise level is '0.1'"),
+        (lambda V, F: core.add_noise(V, 0.1, -1, faces=F), SettingError, "The seed is -1"),
+        (lambda V, F: core.add_noise(V, 0.1, None, faces=F), SettingError, "The seed is None"),
+        (lambda V, F: core.add_noise(V, 1e308 * 9, faces=F), SettingError, "The noise level is inf"),
+        (lambda V, F: core.add_noise(V, 1e308, faces=F), SettingError, "with it there are no numbers"),
+        (lambda V, F: core.compare(V * np.nan, V, F), MeshError, "not finite points"),
+        (lambda V, F: core.compare(V.astype(str), V, F), MeshError, "The positions are <U32; expected real"),
+        (lambda V, F: surface(V, F).with_vertices(V * 1j), MeshError, "The positions are complex128"),
+    ],
+)
+def test_what_is_of_the_wrong_kind_is_refused_in_words(call, kind, message):
+    mesh = triangle_torus()
+    with pytest.raises(kind, match=message):
+        call(mesh.vertices, faces_of(mesh))
+
+
+@pytest.mark.parametrize("dtype", [int, bool, complex, object, np.float16, "nonsense", 5])
+@pytest.mark.parametrize("method", ["AUTO", "POSITIONS", "BILATERAL"])
+def test_other_precisions_are_refused(dtype, method):
+    """Whole numbers moved all vertices by a fifth of an edge to where no noise had been, without a word."""
+    mesh = triangle_torus()
+    with pytest.raises(SettingError, match="choose float32 or float64"):
+        denoise(mesh, method=method, dtype=dtype)
+    with pytest.raises(SettingError, match="choose float32 or float64"):
+        core.equalize(mesh, [0.5], dtype=dtype)
+
+
+def test_a_matrix_is_an_array(rng):
+    """Its rows are matrices again, of which the corners were taken."""
+    mesh = noisy(triangle_torus(), rng)
+    faces = np.array(faces_of(mesh))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", PendingDeprecationWarning)
+        found = denoise(np.matrix(mesh.vertices), np.matrix(faces))
+    assert_same_bits(found, denoise(mesh.vertices, faces))
+    assert type(found) is np.ndarray
+
+
+def test_meshes_too_large_to_square_are_not_compared():
+    mesh = triangle_torus()
+    for pair in ((mesh, mesh.vertices * 1e200), (mesh.with_vertices(mesh.vertices * 1e200), mesh)):
+        with pytest.raises(MeshError, match="too large to measure its edges; scale both down"):
+            core.compare(*pair)
+    point = mesh.with_vertices(np.full(mesh.vertices.shape, 1e200))
+    assert core.compare(point, mesh).max_distance == pytest.approx(1e200 * 3**0.5)

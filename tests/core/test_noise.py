@@ -59,7 +59,7 @@ def test_noise_grows_with_the_mesh():
 @pytest.mark.parametrize("sigma", [-0.1, np.nan, np.inf])
 def test_wrong_levels_are_refused(sigma):
     with pytest.raises(
-        ValueError, match=rf"The noise level is {sigma:g}; it must be zero or a positive number"
+        ValueError, match=rf"The noise level is {sigma:g}; it must be a finite number, at least 0"
     ):
         add_noise(triangle_grid(), sigma)
 
