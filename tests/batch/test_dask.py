@@ -62,7 +62,7 @@ def test_two_workers_one_killed(farm, tmp_path):
     scans, out = tmp_path / "scans", tmp_path / "out"
     scans.mkdir()
     for number in range(16):
-        (scans / f"{number}.obj").write_text(obj(number, 30))
+        (scans / f"{number}.obj").write_text(obj(number, 20))
     (scans / "bad.obj").write_text("")
     command = [
         sys.executable, "-c", PROGRAM,

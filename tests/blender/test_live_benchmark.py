@@ -13,7 +13,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 @pytest.fixture
 def program(monkeypatch):
-    monkeypatch.setattr(sys, "path", list(sys.path))
+    monkeypatch.setattr(sys, "path", [str(ROOT / "tests" / "benchmarks" / "live"), *sys.path])
     path = ROOT / "tests" / "benchmarks" / "live" / "run.py"
     spec = importlib.util.spec_from_file_location("live_benchmark", path)
     module = importlib.util.module_from_spec(spec)
@@ -31,10 +31,8 @@ def test_a_small_mesh(program):
 
 
 def test_the_page_has_the_table(program):
-    text = program.PAGE.read_text("utf-8")
-    assert len(program.TABLE.findall(text)) == 1
-    for name in ("Amount", "Live Equalizer, a gain", "Smooth of Blender, a factor"):
-        assert f"| {name} |" in text
+    names = ("Amount", "Live Equalizer, a gain", "Smooth of Blender, a factor")
+    check_page(program.live_page, "sliders", names)
 
 
 def test_the_preview_is_measured(monkeypatch):
@@ -48,5 +46,14 @@ def test_the_preview_is_measured(monkeypatch):
     assert found["Strength 0.6: first picture"][1] < found["Strength 0.6: result"][1]
     lines = preview.table([found]).splitlines()
     assert len(lines) == 2 + len(names) and "400" not in lines[2]
-    text = preview.PAGE.read_text("utf-8")
-    assert len(preview.TABLE.findall(text)) == 1 and all(f"| {name} |" in text for name in names)
+    check_page(preview.live_page, "preview", names)
+
+
+def check_page(live_page, marker, names):
+    """Fail unless the page has the table, and a new one takes the place of it alone."""
+    text = live_page.PAGE.read_text("utf-8")
+    before, rest = text.split(f"<!-- begin {marker} -->\n")
+    old, after = rest.split(f"<!-- end {marker} -->")
+    assert all(f"| {name} |" in old for name in names)
+    changed = live_page.with_table(text, "new\n", marker)
+    assert changed == f"{before}<!-- begin {marker} -->\nnew\n<!-- end {marker} -->{after}"

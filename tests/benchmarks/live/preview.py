@@ -6,16 +6,13 @@ Run it with Blender's Python: `preview.py --update` also writes the table of `do
 That has the time of all processors together, which says the same on a busy computer; the clock is printed.
 """
 
-import argparse
-import re
-import sys
 import time
 
 import bpy
-from run import PAGE, make_object
+import live_page
+from run import make_object
 
 SIZES = (10_000, 50_000)
-TABLE = re.compile(r"(<!-- begin preview -->\n).*?(<!-- end preview -->)", re.DOTALL)
 
 
 def seconds(session, positions, is_there):
@@ -78,42 +75,9 @@ def measure(n_vertices):
 
 def table(results):
     """Return the results as a table, a column for each mesh."""
-    lines = [
-        "| Seconds of all processors | "
-        + " | ".join(f"{each['Vertices']:,} vertices" for each in results)
-        + " |",
-        "| --- |" + " --: |" * len(results),
-    ]
-    for name in list(results[0])[1:]:
-        texts = [f"{each[name][1]:.2f}" for each in results]
-        lines.append(f"| {name} | " + " | ".join(texts) + " |")
-    return "\n".join(lines) + "\n"
-
-
-def main():
-    """Measure, print the table, and write it to the page."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--sizes", type=int, nargs="+", default=SIZES)
-    parser.add_argument("--update", action="store_true")
-    options = parser.parse_args()
-    import loading  # noqa: F401  # makes the checkout the package
-
-    # isort: split
-    import framelet
-
-    framelet.register()
-    try:
-        results = [measure(size) for size in options.sizes]
-    finally:
-        framelet.unregister()
-    found = table(results)
-    print(found)
-    for each in results:
-        print(", ".join(f"{name}: {pair[0]:.2f} s by the clock" for name, pair in list(each.items())[1:]))
-    if options.update:
-        page = PAGE.read_text(encoding="utf-8")
-        PAGE.write_text(TABLE.sub(lambda match: match[1] + found + match[2], page), encoding="utf-8")
+    return live_page.table("Seconds of all processors", results, lambda pair: f"{pair[1]:.2f}")
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    for each in live_page.run(__doc__, SIZES, measure, table, "preview"):
+        print(", ".join(f"{name}: {pair[0]:.2f} s by the clock" for name, pair in list(each.items())[1:]))

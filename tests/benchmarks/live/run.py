@@ -5,22 +5,19 @@
 Run it with Blender's Python: `run.py --update` also writes the table of `docs/science/benchmarks.md`.
 """
 
-import argparse
-import re
 import sys
 import time
 from pathlib import Path
 
 import bpy
+import live_page
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "tests" / "benchmarks" / "speed"))
-PAGE = ROOT / "docs" / "science" / "benchmarks.md"
 SIZES = (100_000, 1_000_000)
 LEVELS = 3
 ROUNDS = 15
-TABLE = re.compile(r"(<!-- begin sliders -->\n).*?(<!-- end sliders -->)", re.DOTALL)
 
 
 def make_object(n_vertices):
@@ -91,38 +88,10 @@ def measure(n_vertices, rounds=ROUNDS):
 
 def table(results):
     """Return the results as a table, a column for each mesh."""
-    lines = [
-        "| Milliseconds | " + " | ".join(f"{each['Vertices']:,} vertices" for each in results) + " |",
-        "| --- |" + " --: |" * len(results),
-    ]
-    for name in list(results[0])[1:]:
-        values = [each[name] for each in results]
-        texts = [f"{value:,.0f}" if value >= 10 else f"{value:.1f}" for value in values]
-        lines.append(f"| {name} | " + " | ".join(texts) + " |")
-    return "\n".join(lines) + "\n"
-
-
-def main():
-    """Measure, print the table, and write it to the page."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--sizes", type=int, nargs="+", default=SIZES)
-    parser.add_argument("--update", action="store_true")
-    options = parser.parse_args()
-    import loading  # noqa: F401  # makes the checkout the package
-
-    # isort: split
-    import framelet
-
-    framelet.register()
-    try:
-        found = table([measure(size) for size in options.sizes])
-    finally:
-        framelet.unregister()
-    print(found)
-    if options.update:
-        page = PAGE.read_text(encoding="utf-8")
-        PAGE.write_text(TABLE.sub(lambda match: match[1] + found + match[2], page), encoding="utf-8")
+    return live_page.table(
+        "Milliseconds", results, lambda value: f"{value:,.0f}" if value >= 10 else f"{value:.1f}"
+    )
 
 
 if __name__ == "__main__":
-    main()
+    live_page.run(__doc__, SIZES, measure, table, "sliders")

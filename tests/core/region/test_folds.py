@@ -152,7 +152,7 @@ def test_where_nothing_folds_nothing_changes(preset, rng):
 
 
 @pytest.mark.parametrize("name", MESHES)
-@pytest.mark.parametrize("preset", ["TRI_1", "TRI_2", "BILATERAL", "AUTO"])
+@pytest.mark.parametrize("preset", ["TRI_1", "TRI_2", "BILATERAL"])
 def test_never_more_folds_than_before(name, preset, rng):
     for sigma in (0.15, 0.5):
         mesh = noisy(MESHES[name](), rng, sigma)
@@ -206,7 +206,7 @@ def test_never_more_folds_than_before_on_files(preset, shared_meshes, rng):
     n_tested = 0
     for path in mesh_files(shared_meshes, "tri", "quad", "mixed", "nonmanifold", "scan", "bad"):
         mesh = read_mesh(path)
-        if not mesh.n_faces or mesh.n_vertices > 45000 or not np.isfinite(mesh.vertices).all():
+        if not mesh.n_faces or mesh.n_vertices > 15000 or not np.isfinite(mesh.vertices).all():
             continue
         edge = mean_edge_length(mesh)
         if not edge or (preset == "QUAD_2" and not connect(mesh).has_quads):
@@ -219,20 +219,6 @@ def test_never_more_folds_than_before_on_files(preset, shared_meshes, rng):
             assert report.degenerate_faces <= report.degenerate_faces_before, (path.name, sigma)
             n_tested += 1
     assert n_tested > 20
-
-
-def test_automatic_denoising_on_files(shared_meshes, rng):
-    for path in mesh_files(shared_meshes, "tri", "quad", "mixed", "nonmanifold", "bad"):
-        mesh = read_mesh(path)
-        if not mesh.n_faces or mesh.n_vertices > 2000 or not np.isfinite(mesh.vertices).all():
-            continue
-        edge = mean_edge_length(mesh)
-        if edge:
-            height = rng.normal(0, 0.3 * edge, (mesh.n_vertices, 1))
-            noise = mesh.with_vertices((mesh.vertices + height * vertex_normals(mesh)).astype(np.float32))
-            report = denoise(noise).report
-            assert report.folded_faces <= report.folded_faces_before, path.name
-            assert report.degenerate_faces <= report.degenerate_faces_before, path.name
 
 
 def test_the_number_of_calls_does_not_grow_with_the_mesh(rng):
