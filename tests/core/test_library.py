@@ -23,6 +23,7 @@ from framelet.core import (
     SettingError,
     SoftThreshold,
     SurfaceMesh,
+    compare,
     denoise,
     split_bregman,
 )
@@ -337,3 +338,13 @@ def test_meshes_too_large_to_square_are_not_compared():
             core.compare(*pair)
     point = mesh.with_vertices(np.full(mesh.vertices.shape, 1e200))
     assert core.compare(point, mesh).max_distance == pytest.approx(1e200 * 3**0.5)
+
+
+def test_a_result_is_no_mesh_to_compare(rng):
+    """Its positions are: the result itself is refused in words, on either side."""
+    mesh = noisy(triangle_torus(), rng)
+    result = denoise(mesh, preset="tri-1")
+    assert compare(result.vertices, mesh).rms_distance > 0
+    for given in ((result, mesh), (mesh, result)):
+        with pytest.raises(MeshError, match="expected real numbers"):
+            compare(*given)
