@@ -26,7 +26,7 @@ def positions_of(vertices: ArrayLike) -> NDArray[np.floating]:
         raise MeshError("The positions are no array; expected shape (N, 3).") from error
     if positions.dtype.kind not in "iuf":
         raise MeshError(f"The positions are {positions.dtype}; expected real numbers.")
-    if positions.dtype != np.float32:
+    if positions.dtype not in (np.float32, np.float64):
         positions = positions.astype(np.float64)
     check_shape(positions)
     return positions
