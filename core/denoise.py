@@ -20,11 +20,11 @@ from .mesh.connectivity import Connectivity
 from .mesh.surface_mesh import SurfaceMesh
 from .methods import METHODS
 from .methods.problem import Callback
+from .precision import as_precision
 from .preparation_cache import PreparationCache, prepared_for
 from .prepared import Prepared
 from .report import DenoiseResult, account, stopped_report
 from .settings import DEFAULT_PRESET, PRESETS, DenoiseSettings
-from .value_checks import as_precision
 
 
 def denoise(

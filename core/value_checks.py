@@ -10,9 +10,6 @@ from collections.abc import Iterable
 from numbers import Integral, Real
 from typing import Any
 
-import numpy as np
-from numpy.typing import DTypeLike
-
 from .errors import SettingError
 
 
@@ -47,29 +44,3 @@ def check_choice(name: str, value: Any, choices: Iterable[str]) -> None:
     words = list(choices)
     if not isinstance(value, str) or value not in words:
         raise SettingError(f"{name} is {value!r}; choose one of {', '.join(words)}.")
-
-
-def as_precision(dtype: DTypeLike) -> np.dtype[Any]:
-    """Return the precision that a kernel is to work in.
-
-    Raises
-    ------
-    SettingError
-        Unless it is single or double precision: in others results overflow, or are whole numbers.
-
-    Examples
-    --------
-    >>> as_precision("f4")
-    dtype('float32')
-    >>> as_precision(int)
-    Traceback (most recent call last):
-    ...
-    framelet.core.errors.SettingError: The dtype is <class 'int'>; choose float32 or float64.
-    """
-    try:
-        precision = np.dtype(dtype)
-    except (TypeError, ValueError):
-        precision = None
-    if precision not in (np.float32, np.float64):
-        raise SettingError(f"The dtype is {dtype!r}; choose float32 or float64.")
-    return precision

@@ -14,10 +14,10 @@ from ..frames.valence_masks import FAMILIES
 from ..mesh.connectivity import Connectivity, connect
 from ..mesh.distance_rings import distance_rings, edge_adjacency, face_adjacency
 from ..mesh.surface_mesh import SurfaceMesh
+from ..precision import as_precision
 from ..stencils import make_stencil
 from ..stencils.dilation import dilate
 from ..stencils.ring_points import one_ring_points
-from ..value_checks import as_precision
 from .adaptive_level import AdaptiveLevel, Neighbors, ring_neighbors
 from .frame_transform import FrameTransform
 from .lattice_level import LatticeLevel

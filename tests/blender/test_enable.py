@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-ALLOWED = {"core", "core.settings", "core.errors", "core.processors"}
+ALLOWED = {"core", "core.settings", "core.errors", "core.value_checks", "core.processors"}
 """Rooms of core that are read before anything is computed."""
 
 NO_ROOMS = ("core.learned", "core.methods", "core.transform", "core.mesh")

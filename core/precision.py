@@ -1,0 +1,38 @@
+# SPDX-FileCopyrightText: 2026 Framelet contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The precision that kernels work in."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import DTypeLike
+
+from .errors import SettingError
+
+
+def as_precision(dtype: DTypeLike) -> np.dtype[Any]:
+    """Return the precision that a kernel is to work in.
+
+    Raises
+    ------
+    SettingError
+        Unless it is single or double precision: in others results overflow, or are whole numbers.
+
+    Examples
+    --------
+    >>> as_precision("f4")
+    dtype('float32')
+    >>> as_precision(int)
+    Traceback (most recent call last):
+    ...
+    framelet.core.errors.SettingError: The dtype is <class 'int'>; choose float32 or float64.
+    """
+    try:
+        precision = np.dtype(dtype)
+    except (TypeError, ValueError):
+        precision = None
+    if precision not in (np.float32, np.float64):
+        raise SettingError(f"The dtype is {dtype!r}; choose float32 or float64.")
+    return precision
