@@ -56,7 +56,7 @@ def test_zip_holds_what_runs_and_nothing_else():
     root_files = {"blender_manifest.toml", "__init__.py", "LICENSE"}
     extra = [name for name in names if name not in root_files and not is_code(name)]
     # What the engine learned, without which it cannot run, and the job type for Blender's farm manager.
-    learned = [f"core/learned/{name}.npz" for name in ("fine", "wide", "width")]
+    learned = [f"core/learned/{name}.npz" for name in ("fine", "wide")]
     assert sorted(extra) == [*learned, "operators/farm/framelet_denoise.js"]
 
 
