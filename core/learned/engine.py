@@ -82,6 +82,8 @@ class FaceEngine:
         self.at_vertex = Means(at_vertex, blocks, is_square=False)
         self.fit = ScreenedFit(self.graph, self.at_vertex, self.rings)
         self.island = find_islands(self.graph, least_island)
+        self.is_inside = ~connectivity.is_boundary & ~connectivity.is_loose
+        self.is_regular = self.is_inside & ~connectivity.is_irregular()
 
     def for_positions(self, surface: SurfaceMesh, connectivity: Connectivity) -> FaceEngine:
         """Return the engine for other positions of the same mesh: this one, unless other edges are long."""
@@ -118,8 +120,8 @@ class FaceEngine:
         movable = None if measured is None else measured.movable
         return find_residual(self.offsets(before, after), self.rings, movable)
 
-    def vertex_normals(self, points: NDArray[np.float32]) -> NDArray[np.float32]:
-        """Return unit vertex normals, shape (3, N): area-weighted means of the faces around a vertex."""
+    def face_vectors(self, points: NDArray[np.float32]) -> NDArray[np.float32]:
+        """Return normals of the faces of the graph times their areas, shape (F, 4); the fourth is 0."""
         areas = np.zeros((self.graph.n_faces, 4), np.float32)
 
         def measure(faces: slice, polygons: Polygons) -> None:
@@ -128,7 +130,11 @@ class FaceEngine:
                 areas[faces, axis] = area
 
         self.graph.for_faces(measure)
-        means = self.at_vertex.outward(self.at_vertex.mean(areas))[:, :3].T
+        return areas
+
+    def vertex_normals(self, points: NDArray[np.float32]) -> NDArray[np.float32]:
+        """Return unit vertex normals, shape (3, N): area-weighted means of the faces around a vertex."""
+        means = self.at_vertex.outward(self.at_vertex.mean(self.face_vectors(points)))[:, :3].T
         return means / np.maximum(np.sqrt((means * means).sum(axis=0)), np.float32(1e-30))
 
     def offsets(self, before: NDArray[np.float32], after: NDArray[np.float32]) -> NDArray[np.float32]:

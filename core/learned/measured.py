@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .face_graph import FaceGraph
+from .face_graph import FaceGraph, Polygons
 from .islands import LEAST_ISLAND, faces_of_islands
 
 
@@ -82,3 +82,19 @@ def counted_faces(
     if island is not None:
         parts = [*faces_of_islands(island)]
     return parts if measured is None else [measured.of(part) for part in parts]
+
+
+def at_faces(fields: NDArray[np.float32], graph: FaceGraph) -> NDArray[np.float32]:
+    """Return means over the corners of faces, shape (n, F), of fields at vertices, shape (n, N)."""
+    means = np.empty((len(fields), graph.n_faces), np.float32)
+
+    def collect(faces: slice, polygons: Polygons) -> None:
+        means[:, faces] = fields.take(polygons.corners, axis=1).mean(axis=1)
+
+    graph.for_faces(collect)
+    return means
+
+
+def ramp(values: NDArray[np.float64], middle: float, unsure: float) -> NDArray[np.float32]:
+    """Return 0 well below the middle, 1 well above, and what lies between."""
+    return np.clip((values - middle) / (2 * unsure) + 0.5, 0, 1).astype(np.float32)

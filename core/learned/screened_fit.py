@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from ..averages.means import Means, padded
 from ..averages.ring_means import RingMeans
 from .face_graph import FaceGraph, Polygons
+from .symmetric import ENTRIES, ROWS
 from .unfolding import ROUNDS, doubled_areas, unfolded_points
 
 NORMAL_PULL = 0.006
@@ -223,7 +224,7 @@ class ScreenedFit:
                 gain: np.float32 = gain,
             ) -> None:
                 own = np.ascontiguousarray(step[part].T)
-                for axis, entries in enumerate(MATRIX_ROWS):
+                for axis, entries in enumerate(ROWS):
                     product = matrix[entries[0], part] * own[0]
                     product += matrix[entries[1], part] * own[1]
                     product += matrix[entries[2], part] * own[2]
@@ -285,10 +286,3 @@ class ScreenedFit:
         direction = step[out] / distance[out]
         rows[out] += direction * (direction * away).sum(axis=1, keepdims=True)
         return np.ascontiguousarray(rings.outward(rows)[:, :3].T)
-
-
-ENTRIES = ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))
-"""The entries of a symmetric matrix that differ."""
-
-MATRIX_ROWS = ((0, 1, 2), (1, 3, 4), (2, 4, 5))
-"""For each row of a symmetric matrix where its entries are in `ENTRIES`."""

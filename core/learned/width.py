@@ -15,17 +15,18 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from .face_graph import FaceGraph, Polygons
+from .face_graph import FaceGraph
+from .measured import at_faces, ramp
 from .residual import Residual
 
-SHARED, UNSURE_SHARED = np.float32(0.015), np.float32(0.01)
+SHARED, UNSURE_SHARED = 0.015, 0.01
 """Correlation with the mean of the ring from which neighbors share the residual of a pass for fine noise.
 
 It is below 0 for white noise, as a pass takes less of what is smooth, and 0.025 and more for noise that was
 averaged with the ring once. So far away both nets have a share, so that rounding decides nothing.
 """
 
-STRONG, UNSURE_STRONG = np.float32(0.045), np.float32(0.005)
+STRONG, UNSURE_STRONG = 0.045, 0.005
 """Root mean square of the residual of a pass for wide noise, in local edge lengths, from which it is noise.
 
 It is 0.02 to 0.04 for relief of clean meshes, and 0.05 and more for scans.
@@ -53,7 +54,7 @@ def shared_share(
     """
     strength = residual.strength / unit
     shared, total = _sums(np.stack((strength * residual.correlation, strength)), graph, counted)
-    return _ramp(shared / np.maximum(total, 1e-30), SHARED, UNSURE_SHARED)
+    return ramp(shared / np.maximum(total, 1e-30), SHARED, UNSURE_SHARED)
 
 
 def strong_share(
@@ -65,22 +66,12 @@ def strong_share(
     """Return whether a pass for wide noise took away noise, shape (I,), from 0 to 1; see `shared_share`."""
     square = (residual.strength / unit) ** 2
     total, n_corners = _sums(np.stack((square, np.ones_like(square))), graph, counted)
-    return _ramp(np.sqrt(total / np.maximum(n_corners, 1)), STRONG, UNSURE_STRONG)
+    return ramp(np.sqrt(total / np.maximum(n_corners, 1)), STRONG, UNSURE_STRONG)
 
 
 def _sums(
     fields: NDArray[np.float32], graph: FaceGraph, counted: Sequence[slice | NDArray[np.intp]]
 ) -> NDArray[np.float64]:
     """Return sums over faces of means at their corners, shape (n, I), of fields at vertices, shape (n, N)."""
-    at_faces = np.empty((len(fields), graph.n_faces), np.float32)
-
-    def collect(faces: slice, polygons: Polygons) -> None:
-        at_faces[:, faces] = fields.take(polygons.corners, axis=1).mean(axis=1)
-
-    graph.for_faces(collect)
-    return np.stack([at_faces[:, own].sum(axis=1, dtype=np.float64) for own in counted], axis=1)
-
-
-def _ramp(values: NDArray[np.float64], middle: np.float32, unsure: np.float32) -> NDArray[np.float32]:
-    """Return 0 well below the middle, 1 well above, and what lies between."""
-    return np.clip((values - middle) / (2 * unsure) + 0.5, 0, 1).astype(np.float32)
+    means = at_faces(fields, graph)
+    return np.stack([means[:, own].sum(axis=1, dtype=np.float64) for own in counted], axis=1)

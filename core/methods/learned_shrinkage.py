@@ -6,7 +6,8 @@ A pass looks at the surface at several scales (`learned.scales`), describes it b
 on pose, size or numbering (`learned.features`), shrinks the differences of neighboring normals by gains that
 a small net makes of them (`learned.net`), and moves the vertices to where the faces have these normals
 (`learned.screened_fit`). The next pass looks at the result of the one before; vertices are always fitted from
-where they were. What is clean stays put (`learned.clean_parts`).
+where they were, less noise along the surface (`learned.tangential_noise`). What is clean stays put
+(`learned.clean_parts`).
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ from ..learned.measured import counted_faces
 from ..learned.net import N_LAYERS, load_net
 from ..learned.noise_field import find_belief
 from ..learned.residual import Residual
+from ..learned.tangential_noise import tangential_step
 from ..learned.width import shared_share, strong_share
 from .problem import Problem, Solution
 
@@ -64,6 +66,8 @@ def shrink_normals(problem: Problem) -> Solution:
             # Steps of voxels and terraces, which are wide noise, are flat and smooth: nothing is still.
             fitted = run.next_pass(points) if settings.noise == "WIDE" else run.first_pass()
             n_passes = 1
+            if settings.passes > 1:
+                run.even_out(fitted)
             while n_passes < settings.passes and run.is_free.any():
                 fitted, n_passes = run.next_pass(fitted), n_passes + 1
     except _Stopped:
@@ -86,6 +90,7 @@ class _Run:
 
     def __init__(self, points: NDArray[np.float32], engine: FaceEngine, problem: Problem) -> None:
         self.points, self.engine, self._problem = points, engine, problem
+        self._held = points
         self._done, self._n_left = 0.0, float(TICKS * problem.settings.passes)
         self._log_strength = math.log(max(problem.settings.strength, WEAKEST))
         self._wide = np.array([problem.settings.noise == "WIDE"], np.float32)
@@ -94,6 +99,15 @@ class _Run:
         self.is_free = self._is_movable.copy()
         self.unit = np.ones(points.shape[1], np.float32)
         self.measured = None if problem.movable is None else engine.measured(problem.movable)
+
+    def even_out(self, fitted: NDArray[np.float32]) -> None:
+        """Move what later passes start from, and where they hold the vertices, along the surface."""
+        step = tangential_step(self.points, fitted, self.unit, self.engine, self.measured)
+        if step is not None:
+            step *= np.float32(min(math.exp(self._log_strength), 1.0))
+            step[:, ~self.is_free] = 0
+            self._held = self.points + step
+            fitted += step
 
     def share_clean(self) -> float:
         """Return the share of the vertices that may move and stay because they are clean."""
@@ -154,7 +168,7 @@ class _Run:
 
     def _residual(self, fitted: NDArray[np.float32]) -> Residual:
         """Return what was taken away so far."""
-        return self.engine.residual(self.points, fitted, self.measured)
+        return self.engine.residual(self._held, fitted, self.measured)
 
     def _passed(
         self,
@@ -188,7 +202,7 @@ class _Run:
 
     def _fitted(self, normals: NDArray[np.float32]) -> NDArray[np.float32]:
         """Return the vertices, shape (3, N), whose faces have these normals."""
-        moved = self.engine.fit.fit(self.points, normals, self.is_free, self.unit)
+        moved = self.engine.fit.fit(self._held, normals, self.is_free, self.unit)
         self._problem.constraints.apply(moved, self.points)
         step = moved - self.points
         is_far = np.sqrt((step * step).sum(axis=0)) > FARTHEST * self.unit
