@@ -37,7 +37,7 @@ def report_written(
     fill_report(report, measured)
     fill_estimate_of_run(context.window_manager.framelet_estimate, measured)
     refresh_heat(context, [item.obj for item in written])
-    found = [hint for item in written for hint in hints(item.original, item.measured.steps)]
+    found = [hint for item in written for hint in hints(item.original, item.measured.report.noise)]
     report.hints = "\n".join(dict.fromkeys(found))
     notes = [item.note for item in written] + found
     for item in written:

@@ -48,10 +48,9 @@ class Features:
     ----------
     pairs : ndarray, shape (P + 1, N_EDGE), float32
         Distance, ratio of areas, bends and offsets across each edge; 0 for the pair without faces.
-    quantiles : ndarray, shape (I, N_GLOBAL), float32
-        Quantiles of energies over each island, as they are at Strength 1; small islands are one.
     context : ndarray, shape (I, N_CONTEXT), float32
-        What is known of each island as a whole: its quantiles, and means of what the pass before took away.
+        What is known of each island as a whole (small ones are one): its quantiles, and means of what the
+        pass before took away.
     island : ndarray, shape (F,), intp, or None
         The island of each face; None if there is one.
     block : callable
@@ -63,7 +62,6 @@ class Features:
     """
 
     pairs: NDArray[np.float32]
-    quantiles: NDArray[np.float32]
     context: NDArray[np.float32]
     island: NDArray[np.intp] | None
     block: Callable[[slice, Polygons], NDArray[np.float32]]
@@ -242,7 +240,7 @@ def find_features(
         faces[:, -N_RESIDUAL:] = before[block]
         return faces
 
-    return Features(pairs, quantiles, context, island, collect, graph)
+    return Features(pairs, context, island, collect, graph)
 
 
 _BY_STRENGTH = np.array([2] * 6 + [0] * 3 + [1] * 6 + [0], np.float32)

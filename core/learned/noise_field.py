@@ -56,6 +56,13 @@ class NoiseBelief(NoiseEstimate):
         Share of the vertices that were far off alone.
     clean : float
         Share of the vertices that were clean, and stayed.
+    shared, wide : float
+        Share of the faces where neighbors share what a pass for fine noise takes away, which is relief or
+        wide noise, and of those where it was taken for wide noise.
+    along : float
+        What was taken away along the surface, root mean square in mean edge lengths.
+    steps : str
+        "VOXELS" or "TERRACES" for exact steps, which are no noise but wide (see `find_steps`), else "".
     """
 
     sigma_low: float
@@ -63,11 +70,20 @@ class NoiseBelief(NoiseEstimate):
     width: float
     spikes: float
     clean: float
+    shared: float = 0.0
+    wide: float = 0.0
+    along: float = 0.0
+    steps: str = ""
 
     @property
     def is_clean(self) -> bool:
         """Whether there was no noise anywhere."""
         return self.clean >= 1.0
+
+    @property
+    def is_doubtful(self) -> bool:
+        """Whether what looks clean may be noise that is several edges wide: relief looks alike."""
+        return self.is_clean and self.shared > 0.5
 
 
 def noise_field(surface: SurfaceMesh, vertices: NDArray[np.floating]) -> NoiseField:

@@ -13,6 +13,7 @@ where they were, less noise along the surface (`learned.tangential_noise`). What
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -26,6 +27,7 @@ from ..learned.noise_field import find_belief
 from ..learned.residual import Residual
 from ..learned.tangential_noise import tangential_step
 from ..learned.width import shared_share, strong_share
+from ..noise import find_steps
 from .problem import Problem, Solution
 
 WEAKEST = 0.25
@@ -66,16 +68,22 @@ def shrink_normals(problem: Problem) -> Solution:
             # Steps of voxels and terraces, which are wide noise, are flat and smooth: nothing is still.
             fitted = run.next_pass(points) if settings.noise == "WIDE" else run.first_pass()
             n_passes = 1
-            if settings.passes > 1:
-                run.even_out(fitted)
             while n_passes < settings.passes and run.is_free.any():
-                fitted, n_passes = run.next_pass(fitted), n_passes + 1
+                guide = run.evened(fitted) if n_passes == 1 else fitted
+                fitted, n_passes = run.next_pass(guide), n_passes + 1
     except _Stopped:
         is_stopped = True
     if not run.is_free.any():
         n_passes = 0  # one was needed to find out that there is nothing to do
     belief = find_belief(
         points, fitted, run.unit, engine, problem.edge, run.share_clean(), measured=run.measured
+    )
+    belief = replace(
+        belief,
+        shared=run.shared,
+        wide=run.wide,
+        along=run.along if n_passes > 1 else 0.0,
+        steps="" if settings.noise == "WIDE" else find_steps(problem.surface),
     )
     # Of a mesh that is clean already the lines, which were smoothed before, stay as well.
     start = problem.given if belief.is_clean else noisy
@@ -91,6 +99,7 @@ class _Run:
     def __init__(self, points: NDArray[np.float32], engine: FaceEngine, problem: Problem) -> None:
         self.points, self.engine, self._problem = points, engine, problem
         self._held = points
+        self.shared, self.along = 0.0, 0.0
         self._done, self._n_left = 0.0, float(TICKS * problem.settings.passes)
         self._log_strength = math.log(max(problem.settings.strength, WEAKEST))
         self._wide = np.array([problem.settings.noise == "WIDE"], np.float32)
@@ -100,53 +109,66 @@ class _Run:
         self.unit = np.ones(points.shape[1], np.float32)
         self.measured = None if problem.movable is None else engine.measured(problem.movable)
 
-    def even_out(self, fitted: NDArray[np.float32]) -> None:
-        """Move what later passes start from, and where they hold the vertices, along the surface."""
+    def evened(self, fitted: NDArray[np.float32]) -> NDArray[np.float32]:
+        """Return the positions, shape (3, N), less noise along the surface; later passes hold vertices so."""
         step = tangential_step(self.points, fitted, self.unit, self.engine, self.measured)
-        if step is not None:
-            step *= np.float32(min(math.exp(self._log_strength), 1.0))
-            step[:, ~self.is_free] = 0
-            self._held = self.points + step
-            fitted += step
+        if step is None:
+            return fitted
+        step *= np.float32(min(math.exp(self._log_strength), 1.0))
+        step[:, ~self.is_free] = 0
+        self._held = self.points + step
+        self.along = float(np.sqrt(np.square(step, dtype=np.float64).sum(axis=0).mean()))
+        return fitted + step
 
     def share_clean(self) -> float:
         """Return the share of the vertices that may move and stay because they are clean."""
         n_still = int(np.count_nonzero(self._is_movable & ~self.is_free))
         return n_still / max(int(np.count_nonzero(self._is_movable)), 1)
 
+    @property
+    def wide(self) -> float:
+        """The share of the faces whose noise is taken for wide."""
+        return float(self._wide.mean())
+
     def first_pass(self) -> NDArray[np.float32]:
-        """Return the positions, shape (3, N), after a pass that also finds what is wide and what is still."""
+        """Find what is still and, with AUTO, what is wide; return the positions, shape (3, N), after a pass.
+
+        Both are seen in passes of Strength 1, so that what noise is does not depend on how much is removed.
+        """
+        self._n_left += 1  # of the question whether one more pass is needed
+        first = self._passed(self.points, np.zeros(1, np.float32), is_first=True)
         if self._problem.settings.noise == "AUTO":
-            tried = self._tried()
-            return self.next_pass(self.points) if tried is None else tried
-        return self._still(self._passed(self.points, self._wide, self._log_strength, is_first=True))
+            first = self._with_width(first)
+        first = self._still(first)
+        is_wanted = self._wide.min() == self._wide.max() in (0, 1) and not self._log_strength
+        if not is_wanted:
+            self._n_left += TICKS
+        self._tick()
+        return first if is_wanted else self.next_pass(self.points)
 
     def next_pass(self, fitted: NDArray[np.float32]) -> NDArray[np.float32]:
         """Return the positions, shape (3, N), after a pass that is guided by fitted ones."""
         return self._passed(fitted, self._wide, self._log_strength)
 
-    def _tried(self) -> NDArray[np.float32] | None:
-        """Find what is wide and what is still, by passes for fine and, where it may be, for wide noise.
+    def _with_width(self, fine: NDArray[np.float32]) -> NDArray[np.float32]:
+        """Find what is wide, by the positions after a pass for fine noise and, if needed, one for wide noise.
 
-        They have Strength 1, so that what noise is does not depend on how much of it is removed. Returned are
-        the positions after one of them if it is what is wanted.
+        Returned are the positions, shape (3, N), of that which fits.
         """
-        self._n_left += 1
-        fine = wanted = self._passed(self.points, np.zeros(1, np.float32), is_first=True)
-        counted = counted_faces(self.engine.island, self.measured)
-        share = shared_share(self._residual(fine), self.unit, self.engine.graph, counted)
+        engine, wide = self.engine, None
+        counted = counted_faces(engine.island, self.measured)
+        share = shared_share(self._residual(fine), self.unit, engine.graph, counted)
+        self.shared = float(self._at_faces(share).mean())
         if share.any():
             self._n_left += TICKS
             wide = self._passed(self.points, np.ones(1, np.float32))
-            share *= strong_share(self._residual(wide), self.unit, self.engine.graph, counted)
-            wanted = wide if share.any() else fine
-        wanted = self._still(wanted)
-        self._wide = share if self.engine.island is None else share[self.engine.island]
-        is_wanted = share.min() == share.max() in (0, 1) and not self._log_strength
-        if not is_wanted:
-            self._n_left += TICKS
-        self._tick()
-        return wanted if is_wanted else None
+            share *= strong_share(self._residual(wide), self.unit, engine.graph, counted)
+        self._wide = self._at_faces(share)
+        return wide if wide is not None and share.any() else fine
+
+    def _at_faces(self, share: NDArray[np.float32]) -> NDArray[np.float32]:
+        """Return for the faces, shape (F,) or (1,), what holds for each island, shape (I,)."""
+        return share if self.engine.island is None else share[self.engine.island]
 
     def _still(self, moved: NDArray[np.float32]) -> NDArray[np.float32]:
         """Find what is still, by the positions after a first pass, and put it back."""

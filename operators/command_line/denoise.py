@@ -39,6 +39,11 @@ if TYPE_CHECKING:
     from .file_work import OpenedFile
     from .mesh_work import Outcome
 
+HINTS = {
+    "VOXELS": "; it is made of voxels: --preset marching-cubes rounds the steps",
+    "TERRACES": "; its heights are in whole steps: --preset tri-2 takes them away",
+}
+
 
 def add_command(subparsers: argparse._SubParsersAction[Any]) -> None:
     """Add the subcommand to the parser of the program."""
@@ -222,8 +227,11 @@ def _describe_belief(report: DenoiseReport, noise: NoiseBelief) -> str:
     """Say what automatic denoising took for noise."""
     if report.settings.strength == 0.0:
         return "strength is 0, so that nothing moves"
+    hint = HINTS.get(noise.steps, "")
     if noise.is_clean:
-        return "clean already"
+        if noise.is_doubtful and not hint:
+            hint = "; if what is left is noise, it is several edges wide: try --noise wide"
+        return "clean already" + hint
     edge = report.mean_edge_length
     text = (
         f"noise of {noise.sigma_low:.3g} to {noise.sigma_high:.3g} "
@@ -233,4 +241,8 @@ def _describe_belief(report: DenoiseReport, noise: NoiseBelief) -> str:
         text += f", about {noise.width:.1f} edges wide"
     if noise.spikes:
         text += f", {100.0 * noise.spikes:.2g} % spikes"
-    return text + (f"; {100.0 * noise.clean:.3g} % was clean and stayed" if noise.clean else "")
+    if noise.wide:
+        text += f", wide in {100.0 * noise.wide:.3g} % of the faces"
+    if noise.along:
+        text += f", {noise.along:.2g} mean edge lengths of it along the surface"
+    return text + (f"; {100.0 * noise.clean:.3g} % was clean and stayed" if noise.clean else "") + hint

@@ -153,7 +153,7 @@ def _fill_belief(properties: BeliefMixin, measured: Collection[MeasuredReport]) 
     properties.is_off = all(report.settings.strength == 0.0 for report in reports)
     properties.is_clean = all(belief.is_clean for belief in beliefs) and not properties.is_off
     counts = [report.n_vertices for report in reports]
-    for name in ("spikes", "clean"):
+    for name in ("spikes", "clean", "wide"):
         shares = [count * getattr(belief, name) for count, belief in zip(counts, beliefs, strict=True)]
         setattr(properties, name, 100.0 * sum(shares) / sum(counts))
     pairs = zip(beliefs, measured, strict=True)
@@ -165,6 +165,7 @@ def _fill_belief(properties: BeliefMixin, measured: Collection[MeasuredReport]) 
         setattr(properties, name, extreme(lengths, default=0.0))
         setattr(properties, f"{name}_edges", extreme(edges, default=0.0))
     properties.width = max(belief.width for belief in beliefs)
+    properties.along_edges = max(belief.along for belief in beliefs)
 
 
 def _add_noise(properties: FrameletEstimate, name: str, noise: NoiseEstimate, scale: float) -> FrameletNoise:

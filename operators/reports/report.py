@@ -62,6 +62,10 @@ class BeliefMixin:
     width: _edges("Width", "Standard deviation of what smoothed the noise, in edge lengths; 0 if nothing did")
     spikes: _share("Spikes", "Share of the vertices that were far off alone")
     clean: _share("Clean", "Share of the vertices that were clean, and stayed")
+    wide: _share("Wide", "Share of the faces whose noise was taken for wide, as neighbors share it")
+    along_edges: _edges(
+        "Along Surface", "What was taken away along the surface, root mean square in edge lengths"
+    )
 
 
 class FrameletNoise(BeliefMixin, bpy.types.PropertyGroup):

@@ -102,8 +102,7 @@ class Assembly:
             counts = {name: count if number == 0 else 0 for name, count in counts.items()}
             seconds = report.seconds if number == 0 else 0.0
             report = replace(report, **counts, seconds=seconds)
-            measured = self._measured(job, report, vertices, motion)
-            found.append(DenoiseOutcome(vertices, measured._replace(steps=outcome.measured.steps)))
+            found.append(DenoiseOutcome(vertices, self._measured(job, report, vertices, motion)))
         return found
 
     def _measured(

@@ -11,7 +11,6 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from ..machine import available_bytes
-from ..mesh_io.steps import find_steps
 from ..properties.scene_units import displacement_by, length_by
 from .preparations import borrowed_preparations
 
@@ -99,8 +98,6 @@ class MeasuredReport(NamedTuple):
     scene_max: float
     scale: float = 1.0
     """Scene units for a length of 1, of no particular direction, in object space."""
-    steps: str = ""
-    """What `find_steps` says of a mesh whose steps the settings leave; else empty."""
 
 
 class DenoiseOutcome(NamedTuple):
@@ -181,6 +178,4 @@ def _measured(job: DenoiseJob, result: DenoiseResult) -> MeasuredReport:
         rms, maximum = displacement_by(
             job.linear, job.surface.vertices, result.vertices, job.settings.threads
         )
-    leaves_steps = job.settings.method == "AUTO" and job.settings.noise != "WIDE"
-    steps = find_steps(job.surface) if leaves_steps else ""
-    return MeasuredReport(report, rms, maximum, length_by(job.linear, 1.0), steps)
+    return MeasuredReport(report, rms, maximum, length_by(job.linear, 1.0))

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from drawing import draw
 from framelet.core import SurfaceMesh
+from framelet.core.noise import TERRACES, VOXELS, find_steps
 from framelet.operators.mesh_io.mesh_bridge import read_positions, read_surface
-from framelet.operators.mesh_io.steps import TERRACES, VOXELS, find_steps
 from framelet.ui.panels import report_panels
 from framelet.ui.panels.layouts import draw_text
 

@@ -81,6 +81,10 @@ def draw_belief(
     draw_value(column, "", iface_("{range} edges").format(range=edges))
     if found.width > LEAST_WIDTH:
         draw_value(column, "Width", iface_("about {:.1f} edges").format(found.width))
+    if found.wide:
+        draw_value(column, "Wide", f"{found.wide:.3g}%")
+    if found.along_edges:
+        draw_value(column, "Along Surface", iface_("{:.2g} edges").format(found.along_edges))
     if found.spikes:
         draw_value(column, "Spikes", f"{found.spikes:.2g}%")
     if found.clean:

@@ -186,6 +186,9 @@ TEXTS = {
     "its heights are in whole steps: the preset Paper Tri-2 takes them away": (
         "seine Höhen haben ganze Stufen: die Vorgabe Artikel Tri-2 nimmt sie weg"
     ),
+    "if what is left is noise, it is several edges wide: set Noise to Wide": (
+        "falls der Rest Rauschen ist, ist es mehrere Kanten breit: Rauschen auf Breit stellen"
+    ),
     "the object is scaled unevenly: apply its scale (Ctrl A) and denoise again": (
         "das Objekt ist ungleich skaliert: seine Skalierung anwenden (Strg A) und noch einmal entrauschen"
     ),

@@ -22,6 +22,14 @@ TEXTS = {
     "{range} edges": "{range} Kanten",
     "Width": "Breite",
     "about {:.1f} edges": "etwa {:.1f} Kanten",
+    "Along Surface": "Entlang der Fläche",
+    "{:.2g} edges": "{:.2g} Kanten",
+    "Share of the faces whose noise was taken for wide, as neighbors share it": (
+        "Anteil der Flächen, deren Rauschen für breites gehalten wurde, da Nachbarn es teilen"
+    ),
+    "What was taken away along the surface, root mean square in edge lengths": (
+        "Was entlang der Fläche weggenommen wurde, quadratisches Mittel in Kantenlängen"
+    ),
     "Spikes": "Ausreißer",
     "Clean": "Sauber",
     "{:.3g}% stayed": "{:.3g} % blieben",

@@ -256,7 +256,6 @@ def test_features(kind, log_strength, is_first, rng):
     faces, pairs, context = slow_features(mesh, matrix_of(engine.rings), same, residual, log_strength, 4)
     island = np.zeros(len(faces), int) if found.island is None else found.island
     assert np.abs(found.context[island] - context).max() < 5e-3
-    assert np.abs(found.quantiles - found.context[:, :16]).max() == pytest.approx(2 * abs(log_strength))
     assert found.faces.shape == faces.shape and found.faces.dtype == np.float32
     columns = np.abs(found.faces - faces).max(axis=0)
     # Deviations come out of differences of large squares.

@@ -1,16 +1,14 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether a mesh consists of exact steps, which are no noise: voxels and terraces. Knows no Blender."""
+"""Whether a mesh consists of exact steps, which are no noise: voxels and terraces."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import numpy as np
+from numpy.typing import NDArray
 
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
-    from ...core import SurfaceMesh
+from ..mesh.geometry import face_area_vectors
+from ..mesh.surface_mesh import SurfaceMesh
 
 VOXELS, TERRACES = "VOXELS", "TERRACES"
 
@@ -36,6 +34,7 @@ def find_steps(surface: SurfaceMesh) -> str:
     --------
     >>> import numpy as np
     >>> from framelet.core import SurfaceMesh
+    >>> from framelet.core.noise.steps import find_steps
     >>> rows, columns = np.mgrid[:20, :20]
     >>> heights = np.round(rows * 0.3 + np.sin(columns))
     >>> corner = np.arange(400).reshape(20, 20)[:-1, :-1].ravel()
@@ -43,10 +42,6 @@ def find_steps(surface: SurfaceMesh) -> str:
     >>> find_steps(SurfaceMesh.from_faces(np.stack((rows, columns, heights), axis=-1).reshape(-1, 3), quads))
     'TERRACES'
     """
-    import numpy as np
-
-    from ...core.mesh.geometry import face_area_vectors
-
     if surface.n_faces < LEAST_FACES:
         return ""
     vectors = np.abs(face_area_vectors(surface))
@@ -70,8 +65,6 @@ def find_steps(surface: SurfaceMesh) -> str:
 
 def _meets_often(surface: SurfaceMesh, axis: NDArray[np.integer]) -> bool:
     """Tell whether faces of different axes meet at many vertices."""
-    import numpy as np
-
     of_corner = axis.repeat(surface.face_sizes())
     n_axes = np.zeros(surface.n_vertices, np.int8)
     for each in range(3):
@@ -83,8 +76,6 @@ def _meets_often(surface: SurfaceMesh, axis: NDArray[np.integer]) -> bool:
 
 def _in_steps(heights: NDArray[np.floating]) -> bool:
     """Tell whether heights are few and all multiples of one step apart."""
-    import numpy as np
-
     heights = np.asarray(heights, np.float64)
     extent = np.ptp(heights)
     if not extent > 0.0:
