@@ -286,6 +286,21 @@ def test_clean_shapes_keep_every_bit(name, rng):
         assert result.report.n_moved == 0 and result.report.noise.is_clean
 
 
+@pytest.mark.parametrize("noise", ["AUTO", "FINE"])
+def test_what_is_clean_does_not_depend_on_strength(noise, rng):
+    """A clean sphere stays, and of one with spikes the same vertices move."""
+    clean, cache = SHAPES["sphere"](), PreparationCache()
+    spiky = lifted(clean, 3.0 * (rng.random(clean.n_vertices) < 0.01))
+    moved = []
+    for strength in (0.25, 0.5, 1.0, 2.0, 4.0):
+        settings = AUTO.with_changes(noise=noise, strength=strength)
+        assert denoise(clean, settings, prepared=cache).report.noise.is_clean
+        result = denoise(spiky, settings, prepared=cache, region=AS_SOLVED)
+        moved.append((result.vertices != spiky.vertices).any(axis=1))
+    assert 0 < moved[0].sum() < clean.n_vertices / 2
+    assert all(np.array_equal(which, moved[0]) for which in moved)
+
+
 @pytest.mark.parametrize(
     "name", ["triangle grid", "irregular grid", "quad grid", "single triangle", "single quad"]
 )

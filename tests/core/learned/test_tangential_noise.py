@@ -15,7 +15,7 @@ from framelet.core.learned.tangential_noise import tangential_step
 from framelet.core.mesh.surface_mesh import SurfaceMesh
 from known_shapes import edge_of, lifted, sphere, white
 from learned_twins import low_pass, polygons_of, ring_matrix, slow_offsets
-from meshes import noisy, quad_torus, triangle_grid, triangle_torus, union
+from meshes import faces_of, noisy, quad_grid, quad_torus, triangle_grid, triangle_torus, union
 from twins import newell
 
 AUTO = DenoiseSettings(method="AUTO", threads=1)
@@ -38,7 +38,21 @@ def slow_step(clean, mesh, after):
         normals = [normal / np.linalg.norm(normal) for normal in normals]
         spread = np.mean([np.outer(normal, normal) for normal in normals], axis=0) / 0.07
         result[v] = np.linalg.inv(np.eye(3) + spread @ spread) @ change[v]
-    return result
+    return 2 / 3 * result
+
+
+def turned(mesh, share):
+    """Return a closed triangle mesh with a share of its edges, far apart, turned within their quads."""
+    faces = [list(face) for face in faces_of(mesh)]
+    at = {(face[k], face[k - 2]): f for f, face in enumerate(faces) for k in range(3)}
+    is_used = np.zeros(len(faces), bool)
+    for a, b in mesh.edges[:: round(1 / share)].tolist():
+        one, two = at[a, b], at[b, a]
+        if not is_used[[one, two]].any():
+            c, d = (next(v for v in faces[f] if v not in (a, b)) for f in (one, two))
+            faces[one], faces[two] = [a, d, c], [d, b, c]
+            is_used[[one, two]] = True
+    return SurfaceMesh.from_faces(mesh.vertices, faces)
 
 
 def step_of(mesh, after, unit):
@@ -90,7 +104,7 @@ def test_isotropic_noise_on_a_regular_mesh_goes_in_all_directions(build, rng):
     before = compare(mesh, clean)
     after = compare(mesh.with_vertices(denoise(mesh, AUTO).vertices), clean)
     # What lies along the normals alone is a third of the energy.
-    assert after.rms_distance < 0.5 * before.rms_distance
+    assert after.rms_distance < 0.6 * before.rms_distance
     one = compare(mesh.with_vertices(denoise(mesh, AUTO.with_changes(passes=1)).vertices), clean)
     assert one.rms_distance > 0.75 * before.rms_distance
 
@@ -102,10 +116,66 @@ def test_vertices_do_not_slide_where_noise_is_along_the_normals(rng):
         assert slid(clean, mesh.vertices, denoise(mesh, AUTO).vertices) < 0.25 * sigma
 
 
-def test_vertices_of_an_irregular_mesh_do_not_slide(rng):
-    """Half of the vertices of the sphere have four, five or eight neighbors."""
-    mesh = noisy(sphere(), rng, 0.15)
-    assert slid(sphere(), mesh.vertices, denoise(mesh, AUTO).vertices) < 0.05
+@pytest.mark.parametrize("build", [sphere, lambda: turned(triangle_torus(40, 60), 0.03)])
+def test_vertices_of_an_irregular_mesh_do_not_slide(build, rng):
+    """Of half of the sphere, and of a fifth of the torus, that have not six neighbors."""
+    clean = build()
+    mesh = noisy(clean, rng, 0.15)
+    assert slid(clean, mesh.vertices, denoise(mesh, AUTO).vertices) < 0.05
+
+
+@pytest.mark.parametrize("build", [triangle_grid, quad_grid])
+@pytest.mark.parametrize("jitter", [0.1, 0.2])
+def test_wherever_vertices_of_a_lattice_were_placed_the_result_is_nearer(build, jitter, rng):
+    """Also where they stand as unevenly as if that were noise."""
+    flat = build(40, 40)
+    points = flat.vertices + jitter * rng.normal(size=flat.vertices.shape)
+    points[:, 2] = 4 * np.sin(points[:, 0] / 11) * np.cos(points[:, 1] / 9)
+    clean = flat.with_vertices(points)
+    shares = []
+    for sigma in np.array([0.5, 0.8, 1.0, 1.2, 1.6]) * jitter:
+        mesh = lifted(clean, sigma * white(clean, rng))
+        after = compare(mesh.with_vertices(denoise(mesh, AUTO).vertices), clean)
+        shares.append(after.rms_distance / compare(mesh, clean).rms_distance)
+    assert max(shares) < 0.9 and sum(share < 0.4 for share in shares) >= 2
+
+
+def test_corners_of_a_border_are_not_rounded(rng):
+    flat = quad_grid(30, 30)
+    corners = np.flatnonzero(connect(flat).valence == 2)
+    inward = -np.sign(flat.vertices[corners] - flat.vertices.mean(axis=0))[:, :2]
+    ways = []
+    for _ in range(4):
+        mesh = noisy(flat, rng, 0.15)
+        ways.append((((denoise(mesh, AUTO).vertices - mesh.vertices)[corners, :2]) * inward).sum(axis=1))
+    assert len(corners) == 4 and abs(np.mean(ways)) < 0.15
+
+
+def test_uneven_noise_is_seen_by_what_is_around(rng):
+    clean = triangle_torus(40, 80)
+    level = np.where(clean.vertices[:, 0] > 0, 0.1, 0.4)[:, None] * edge_of(clean)
+    mesh = clean.with_vertices(clean.vertices + level * rng.normal(size=clean.vertices.shape))
+    assert slid(clean, mesh.vertices, denoise(mesh, AUTO).vertices) > 0.15
+
+
+def test_noise_of_a_few_vertices_that_may_move_is_that_of_these(rng):
+    """The rest, which keeps its noise, takes no part."""
+    clean = triangle_torus(40, 60)
+    near = lengths(clean.vertices - clean.vertices[0]) < 4 * edge_of(clean)
+    for mesh, slides in ((noisy(clean, rng, 0.15), True), (lifted(clean, 0.15 * white(clean, rng)), False)):
+        found = denoise(mesh, AUTO, movable=near, region=AS_SOLVED)
+        assert 20 < near.sum() < 100 and (found.report.noise.along > 0) == slides
+
+
+def test_what_is_clean_does_not_slide(rng):
+    """Half of a torus, bit for bit, while the other half does."""
+    clean = triangle_torus(60, 80)
+    is_noisy = clean.vertices[:, 0] > 0
+    step = 0.15 * edge_of(clean) * rng.normal(size=clean.vertices.shape) * is_noisy[:, None]
+    mesh = clean.with_vertices(clean.vertices + step)
+    result = denoise(mesh, AUTO)
+    stayed = (result.vertices == mesh.vertices).all(axis=1)
+    assert result.report.noise.along > 0.05 and stayed[~is_noisy].mean() > 0.5
 
 
 def test_range_images_keep_their_grid(rng):
@@ -124,7 +194,7 @@ def test_each_island_by_itself(rng):
     both = union(one, two)
     step = denoise(both, AUTO).vertices - both.vertices
     n = first.n_vertices
-    assert slid(first, one.vertices, one.vertices + step[:n]) > 0.12
+    assert slid(first, one.vertices, one.vertices + step[:n]) > 0.08
     assert slid(second, two.vertices, two.vertices + step[n:]) < 0.05
 
 
@@ -137,4 +207,6 @@ def test_what_may_not_move_stays_and_strength_has_no_jumps(rng):
     strengths = np.linspace(0, 1.5, 16)
     results = [denoise(mesh, AUTO.with_changes(strength=s)).vertices for s in strengths.tolist()]
     steps = [np.sqrt((lengths(b - a) ** 2).mean()) / edge_of(mesh) for a, b in pairwise(results)]
-    assert max(steps) < 0.1
+    assert max(steps) < 0.07
+    half, whole = (slid(clean, mesh.vertices, results[k]) for k in (5, 10))
+    assert half == pytest.approx(whole / 2, rel=0.3)
