@@ -14,7 +14,6 @@ from framelet.operators.command_line.messages import CommandError
 from framelet.operators.command_line.parser import make_parser
 from framelet.operators.properties.setting_values import has_effect
 
-
 parser = functools.cache(make_parser)
 """One parser for all command lines that are read here."""
 
