@@ -39,7 +39,7 @@ demo: ## Denoise a noisy mesh without a screen; pictures and numbers go to build
 test: test-core test-$(BLENDER) test-installed-$(BLENDER) ## Test on one Blender: core, operators, installed zip
 
 .PHONY: test-all
-test-all: lint test-core numbers test-training $(BLENDERS:%=test-%) $(BLENDERS:%=test-installed-%) ## Lint, then test on every supported Blender
+test-all: lint-and-training test-core numbers $(BLENDERS:%=test-%) $(BLENDERS:%=test-installed-%) ## Lint, then test on every supported Blender
 test-all: LEFT_OUT = $(if $(filter-out $(BLENDER),$*),$(WITHOUT_BPY:%=--ignore=%))
 
 .PHONY: lint
@@ -112,6 +112,14 @@ kills: ## Kill batches at 100 random moments
 .PHONY: test-training
 test-training: ## Train for a minute, and test the training
 	$(ENVIRONMENT) run training --timeout $(TIMEOUT) -- -m pytest tests/training
+
+# Both at once, as each keeps one core busy. Their environments are made before that, one after the other.
+.PHONY: lint-and-training
+lint-and-training:
+	@$(ENVIRONMENT) path core && $(ENVIRONMENT) path training
+	@$(MAKE) --no-print-directory lint & lint=$$!; \
+	  $(MAKE) --no-print-directory test-training; training=$$?; \
+	  wait $$lint && exit $$training
 
 .PHONY: train
 train: ## Make meshes, train for hours and write the arrays of the net; goes on where it was cut off
