@@ -15,9 +15,9 @@ TIMEOUT ?= 1200
 GUI_TIMEOUT ?= 3600
 HUNT_TIMEOUT ?= 14400
 
-# Tests run in this many processes at once: auto is one for each core, 0 none but pytest itself.
-# Never more than eight, as each holds a whole Blender in memory.
-JOBS ?= auto
+# Tests run in this many processes at once: one more than there are cores, as tests wait for programs that they
+# start. 0 is none but pytest itself. Never more than eight, as each holds a whole Blender in memory.
+JOBS ?= $(shell $(PYTHON) -c "import os; print(1 + (os.cpu_count() or 1))")
 PYTEST := -m pytest -n $(JOBS) --maxprocesses 8 --dist worksteal
 
 # These read and write mesh files without Blender's help: where several Blenders are tested, one is enough.
