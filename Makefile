@@ -15,10 +15,13 @@ TIMEOUT ?= 1200
 GUI_TIMEOUT ?= 3600
 HUNT_TIMEOUT ?= 14400
 
-# Tests run in this many processes at once: auto is one for each core, 0 none but pytest itself.
-# Never more than eight, as each holds a whole Blender in memory.
-JOBS ?= auto
+# Tests run in this many processes at once: one more than there are cores, as tests wait for programs that they
+# start. 0 is none but pytest itself. Never more than eight, as each holds a whole Blender in memory.
+JOBS ?= $(shell $(PYTHON) -c "import os; print(1 + (os.cpu_count() or 1))")
 PYTEST := -m pytest -n $(JOBS) --maxprocesses 8 --dist worksteal
+
+# These read and write mesh files without Blender's help: where several Blenders are tested, one is enough.
+WITHOUT_BPY := $(patsubst %,tests/blender/command_line/test_%.py,arguments frames region shared_meshes)
 
 # Two targets must not make the same environment at once.
 .NOTPARALLEL:
@@ -36,7 +39,8 @@ demo: ## Denoise a noisy mesh without a screen; pictures and numbers go to build
 test: test-core test-$(BLENDER) test-installed-$(BLENDER) ## Test on one Blender: core, operators, installed zip
 
 .PHONY: test-all
-test-all: lint test-core numbers test-training $(BLENDERS:%=test-%) $(BLENDERS:%=test-installed-%) ## Lint, then test on every supported Blender
+test-all: lint-and-training test-core numbers $(BLENDERS:%=test-%) $(BLENDERS:%=test-installed-%) ## Lint, then test on every supported Blender
+test-all: LEFT_OUT = $(if $(filter-out $(BLENDER),$*),$(WITHOUT_BPY:%=--ignore=%))
 
 .PHONY: lint
 lint: ## Check style and types
@@ -109,6 +113,14 @@ kills: ## Kill batches at 100 random moments
 test-training: ## Train for a minute, and test the training
 	$(ENVIRONMENT) run training --timeout $(TIMEOUT) -- -m pytest tests/training
 
+# Both at once, as each keeps one core busy. Their environments are made before that, one after the other.
+.PHONY: lint-and-training
+lint-and-training:
+	@$(ENVIRONMENT) path core && $(ENVIRONMENT) path training
+	@$(MAKE) --no-print-directory lint & lint=$$!; \
+	  $(MAKE) --no-print-directory test-training; training=$$?; \
+	  wait $$lint && exit $$training
+
 .PHONY: train
 train: ## Make meshes, train for hours and write the arrays of the net; goes on where it was cut off
 	$(ENVIRONMENT) run training -- -m training --write $(if $(START),--start $(START))
@@ -119,7 +131,7 @@ test-4.2: ## Test the operators on Blender 4.2
 test-4.5: ## Test the operators on Blender 4.5
 test-5.2: ## Test the operators on Blender 5.2
 $(BLENDERS:%=test-%): test-%:
-	$(ENVIRONMENT) run bpy-$* --timeout $(TIMEOUT) -- $(PYTEST) tests/blender
+	$(ENVIRONMENT) run bpy-$* --timeout $(TIMEOUT) -- $(PYTEST) tests/blender $(LEFT_OUT)
 
 .PHONY: $(BLENDERS:%=test-installed-%)
 test-installed-4.2: ## Install the zip on Blender 4.2 and test it

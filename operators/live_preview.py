@@ -8,7 +8,7 @@ import bpy
 from bpy.app.translations import pgettext_n as n_
 
 from .preview import targets
-from .preview.current_preview import current_preview, end_preview, start_preview
+from .preview.current_preview import current_preview, end_preview, is_too_large, start_preview
 from .properties.own_settings import settings_of
 from .run.current_run import IS_RUNNING, current_run
 from .window_events import cancels
@@ -25,8 +25,6 @@ class OBJECT_OT_framelet_preview(bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Ask for an active mesh in Object Mode, unless the preview is on."""
-        from .preview.preview_session import MOST_VERTICES
-
         if current_preview() is not None:
             return True
         obj = context.active_object
@@ -37,7 +35,7 @@ class OBJECT_OT_framelet_preview(bpy.types.Operator):
             reason = n_("Make a mesh object active")
         elif context.mode != "OBJECT":
             reason = n_("Switch to Object Mode")
-        elif len(obj.data.vertices) > MOST_VERTICES:
+        elif is_too_large(obj):
             reason = n_("The mesh has too many vertices for a preview; press Denoise")
         return targets.allows(cls, reason)
 

@@ -9,6 +9,10 @@ import sys
 import zlib
 from pathlib import Path
 
+# Before NumPy is loaded: test processes share the cores, and threads of its matrix library that wait for one
+# another keep them busy. Framelet's own threads are as ever.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 import numpy as np
 import pytest
 

@@ -3,6 +3,7 @@
 """Finds every text that Blender shows for Framelet: in registered classes, and in the source."""
 
 import ast
+import functools
 from pathlib import Path
 
 import bpy
@@ -18,8 +19,9 @@ TABLES = {"draw_value": (1, 2), "draw_lengths": (2,)}
 """Functions of `ui.panels.layouts`, and which of their arguments are shown as labels."""
 
 
+@functools.cache
 def messages():
-    """Return all texts as pairs of context and message."""
+    """Return all texts as pairs of context and message, a frozen set; the source is read once."""
     found = set()
     for each in (*registration.classes, *framelet.ui.classes):
         found |= _of_class(each)
@@ -27,7 +29,7 @@ def messages():
         for path in sorted((ROOT / folder).rglob("*.py")):
             found |= _of_source(path)
     # A name may be empty, and what has no letters is the same in every language.
-    return {(context, text) for context, text in found if any(map(str.isalpha, text))}
+    return frozenset((context, text) for context, text in found if any(map(str.isalpha, text)))
 
 
 def rna_of(each):

@@ -22,6 +22,9 @@ if TYPE_CHECKING:
 TICK = 0.03
 """Seconds between two looks at the settings."""
 
+MOST_VERTICES = 500_000
+"""Above this a change takes a second and more to be seen, and pressing Denoise serves better."""
+
 _session: PreviewSession | None = None
 
 _ending: list[PreviewSession] = []
@@ -47,6 +50,11 @@ def current_preview() -> PreviewSession | None:
     return _session
 
 
+def is_too_large(obj: bpy.types.Object) -> bool:
+    """Return whether an object has more vertices than a preview can follow."""
+    return len(obj.data.vertices) > MOST_VERTICES
+
+
 def preview_message() -> str:
     """Return why nothing is shown, or why the last preview ended; empty if there is nothing to say."""
     session = current_preview()
@@ -67,6 +75,11 @@ def start_preview(obj: bpy.types.Object, scene: bpy.types.Scene) -> PreviewSessi
     end_preview()
     current_preview()
     _message = ""
+    if is_too_large(obj):
+        raise ValueError(
+            f"‘{obj.name}’ has {len(obj.data.vertices):,} vertices, too many for a preview, which goes up to "
+            f"{MOST_VERTICES:,}; press Denoise."
+        )
     values = settings_of(obj, scene)
     _session = begin_preview(obj, to_settings(values), to_region_options(values))
     tick_preview()

@@ -36,9 +36,6 @@ if TYPE_CHECKING:
     from ..properties.region_options import RegionOptions
     from ..run.denoise_job import DenoiseJob, DenoiseOutcome
 
-MOST_VERTICES = 500_000
-"""Above this a change takes a second and more to be seen, and pressing Denoise serves better."""
-
 FEW = 0.5
 """Share of the vertices up to which an edit counts as one of some vertices, whose way is kept. More are
 moved by applying a scale and the like, after which the original does not belong to the mesh any more."""
@@ -326,10 +323,4 @@ def begin_preview(obj: bpy.types.Object, settings: DenoiseSettings, options: Reg
         )
     if obj.data.shape_keys is not None:
         raise ValueError(f"‘{obj.name}’ has shape keys, of which there is no preview; press Denoise.")
-    n_vertices = job.surface.n_vertices
-    if n_vertices > MOST_VERTICES:
-        raise ValueError(
-            f"‘{obj.name}’ has {n_vertices:,} vertices, too many for a preview, which goes up to "
-            f"{MOST_VERTICES:,}; press Denoise."
-        )
     return PreviewSession(obj, job, options)

@@ -10,7 +10,7 @@ import pytest
 from blender_objects import noisy_monkey
 from framelet.operators.mesh_io import mesh_bridge
 from framelet.operators.mesh_io.mesh_bridge import read_positions
-from framelet.operators.preview import current_preview, outcomes, preview_session
+from framelet.operators.preview import current_preview, outcomes
 from meshes import noisy, triangle_grid
 from run_steps import assert_clean, expected_for, same, settle, turn_on
 
@@ -212,7 +212,7 @@ def test_unexpected_errors_are_shown(settings, monkeypatch, capfd):
 
 def test_what_can_have_no_preview(settings, monkeypatch):
     obj = noisy_monkey()
-    monkeypatch.setattr(preview_session, "MOST_VERTICES", 500)
+    monkeypatch.setattr(current_preview, "MOST_VERTICES", 500)
     with pytest.raises(RuntimeError, match="has too many vertices for a preview; press Denoise"):
         bpy.ops.object.framelet_preview()
     with pytest.raises(ValueError, match="has 507 vertices, too many for a preview, which goes up to 500"):

@@ -138,8 +138,11 @@ def link(world):
 
 def blender(world):
     """Use what Blender has for objects."""
-    if not _targets(world):
+    chosen = _targets(world)
+    if not chosen:
         return SAME
+    for obj in chosen:
+        obj.data.remesh_voxel_size = min(max(*obj.dimensions, 1e-3) / 8, 1e4)  # a few hundred faces
     operator, arguments = world.dice.choice(
         (
             (bpy.ops.object.modifier_apply, {"modifier": "Framelet Denoise"}),
@@ -148,7 +151,7 @@ def blender(world):
             (bpy.ops.object.convert, {"target": "MESH"}),
             (bpy.ops.object.make_single_user, {"object": True, "obdata": True}),
             (bpy.ops.object.shade_smooth, {}),
-            (bpy.ops.object.quadriflow_remesh, {"target_faces": 100}),
+            (bpy.ops.object.voxel_remesh, {}),
             (bpy.ops.object.shape_key_add, {}),
             (bpy.ops.object.shape_key_remove, {"all": True}),
             (bpy.ops.object.make_links_data, {"type": "OBDATA"}),

@@ -58,7 +58,7 @@ def box(n=24):
 
 
 @pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize("sigma", [0.01, 0.1, 0.3, 0.5, 0.7])
+@pytest.mark.parametrize("sigma", [0.01, 0.1, 0.3, 0.7])
 @pytest.mark.parametrize("name", ["triangles", "irregular", "quads", "torus", "box"])
 def test_gaussian_noise(name, sigma, kind):
     mesh = {

@@ -33,7 +33,7 @@ def net(meshes):
 
 
 def test_meshes_depend_on_their_numbers_only():
-    for index in (604, 612, 623, 1360):
+    for index in (604, 612, 623, 620):
         (mesh, kind), (again, _) = make(1, index), make(1, index)
         assert kind == family_of(index)
         assert np.array_equal(mesh.vertices, again.vertices)
@@ -102,10 +102,10 @@ def test_gradients_are_differences_of_the_loss(meshes, net):
 def test_a_run_learns_and_goes_on_where_it_was_cut_off(shapes, meshes, net, tmp_path):
     arguments = ("fine", shapes, tmp_path / "run")
     target = tmp_path / "weights.npz"
-    train(*arguments, 8, 1, target)
+    train(*arguments, 4, 1, target)
     with np.load(target) as file:
         n_first = int(str(file["steps"]))
-    train(*arguments, 30, 1, target, provenance={"seed": "1"})
+    train(*arguments, 12, 1, target, provenance={"seed": "1"})
     steps = [int(step) for step in re.findall(r"step (\d+)", (tmp_path / "run" / "log.txt").read_text())]
     assert steps == sorted(steps)
     trained = Net(REPEATS["fine"])

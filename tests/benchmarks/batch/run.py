@@ -23,7 +23,6 @@ import numpy as np
 
 ROOT = Path(__file__).resolve().parents[3]
 PROGRAM = "import sys; from framelet.operators.command_line import main; sys.exit(main())"
-WAYS = {"one after the other": (), "--jobs 1": ("--jobs", "1"), "--jobs 2": ("--jobs", "2")}
 TIMEOUT = 3600
 
 
@@ -33,6 +32,7 @@ def main():
     parser.add_argument("--files", type=int, default=200)
     parser.add_argument("--side", type=int, default=32, help="vertices along each side of a mesh")
     parser.add_argument("--preset", default="auto")
+    parser.add_argument("--jobs", type=int, nargs="+", default=[1, 2], help="numbers of processes with Dask")
     arguments = parser.parse_args()
     print("| | Start | A file | Its work | Beyond, for each process | Processor time of a file | Load |")
     print("|---" * 7 + "|")
@@ -43,7 +43,8 @@ def main():
         few = max(2, arguments.files // 20)
         for number in range(arguments.files):
             write_sheet(folder / "scans" / f"{number}.obj", arguments.side, number)
-        for way, words in WAYS.items():
+        ways = {"one after the other": ()} | {f"--jobs {n}": ("--jobs", str(n)) for n in arguments.jobs}
+        for way, words in ways.items():
             n_jobs, name = int(words[1]) if words else 1, way.replace(" ", "_")
             *_times, at_start = measure(
                 folder, f"few_{name}", (*words, "--limit", str(few)), arguments.preset

@@ -3,6 +3,7 @@
 
 """Options: made from the settings, checked, understood in several spellings, put over the preset."""
 
+import functools
 from dataclasses import fields
 
 import pytest
@@ -13,10 +14,13 @@ from framelet.operators.command_line.messages import CommandError
 from framelet.operators.command_line.parser import make_parser
 from framelet.operators.properties.setting_values import has_effect
 
+parser = functools.cache(make_parser)
+"""One parser for all command lines that are read here."""
+
 
 def parse(*options):
     """Return the settings of a command line with these options."""
-    return settings_from(make_parser("framelet").parse_args(["denoise", "a.ply", "b.ply", *options]))
+    return settings_from(parser("framelet").parse_args(["denoise", "a.ply", "b.ply", *options]))
 
 
 def test_names_of_options():

@@ -52,7 +52,7 @@ SHEETS = {
 }
 
 
-@pytest.mark.parametrize("share", [0.0, 0.05, 0.1, 0.3, 0.5, 0.7, 0.9, 1.0])
+@pytest.mark.parametrize("share", [0.0, 0.05, 0.3, 0.7, 1.0])
 @pytest.mark.parametrize("name", ["triangle grid", "quad grid", "mixed sheet", *SHEETS])
 def test_flat_vertices(name, share, rng):
     """Against a flood fill from face to face: few that are coplanar by chance, some, and many."""

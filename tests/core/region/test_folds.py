@@ -206,7 +206,7 @@ def test_never_more_folds_than_before_on_files(preset, shared_meshes, rng):
     n_tested = 0
     for path in mesh_files(shared_meshes, "tri", "quad", "mixed", "nonmanifold", "scan", "bad"):
         mesh = read_mesh(path)
-        if not mesh.n_faces or mesh.n_vertices > 15000 or not np.isfinite(mesh.vertices).all():
+        if not mesh.n_faces or mesh.n_vertices > 8000 or not np.isfinite(mesh.vertices).all():
             continue
         edge = mean_edge_length(mesh)
         if not edge or (preset == "QUAD_2" and not connect(mesh).has_quads):
