@@ -35,7 +35,18 @@ ROOMS = {
         "core/methods/{proximal,split_bregman}.py",
         ["test_shrinkage", "test_split_bregman", "test_library", "test_adaptive"],
     ),
-    "files": ("operators/files/*.py", ["files/test_formats", "files/test_safe_write", "files/test_digits"]),
+    "averages": ("core/averages/*.py", ["test_means", "region/test_lines"]),
+    "files": (
+        "operators/files/*.py",
+        [
+            "files/test_formats",
+            "files/test_safe_write",
+            "files/test_digits",
+            "files/test_fuzz",
+            "files/test_less_memory",
+            "files/test_command_line",
+        ],
+    ),
 }
 COMPARED = {
     ast.Lt: ast.LtE,
