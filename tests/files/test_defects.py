@@ -4,7 +4,7 @@
 
 import numpy as np
 import pytest
-from framelet.operators.files import open_file
+from framelet.operators.files import gltf, open_file
 from framelet.operators.files.defects import defects_of
 from framelet.operators.files.surface import surface_of
 
@@ -63,12 +63,19 @@ def test_faces_without_area(tmp_path, height, is_flat):
 
 
 def test_what_a_format_splits_is_no_border(tmp_path):
-    """An STL file has the corners of each triangle for itself; only the rim of the sheet is a border."""
-    (tmp_path / "a.stl").write_bytes(full_stl_binary())
+    """A glTF file has vertices for each side of a seam; only the rim of the sheet is a border."""
     points, faces = sheet()
-    (tmp_path / "a.obj").write_text(obj(points.astype(np.float32).tolist(), faces.tolist()))
+    points = points.astype(np.float32)
+    soup, corners = points[faces].reshape(-1, 3), np.arange(faces.size)
+    (tmp_path / "a.obj").write_text(obj(points.tolist(), faces.tolist()))
     rim = found_in(tmp_path / "a.obj")["open borders"][0]
-    assert found_in(tmp_path / "a.stl")["open borders"][0] == rim < len(points)
+    (tmp_path / "a.stl").write_bytes(full_stl_binary())
+    (tmp_path / "a.glb").write_bytes(gltf.new_file(soup, np.arange(0, faces.size + 1, 3), corners))
+    for name in ("a.stl", "a.glb"):
+        assert found_in(tmp_path / name)["open borders"][0] == rim < len(points)
+    # In an OBJ file it may be meant.
+    (tmp_path / "a.obj").write_text(obj(soup.tolist(), corners.reshape(-1, 3).tolist()))
+    assert found_in(tmp_path / "a.obj")["open borders"][0] == len(soup)
 
 
 def test_loose_edges_go_with_the_part_whose_vertices_they_join(tmp_path):

@@ -583,8 +583,8 @@ def test_normals_of_no_direction_are_renewed_without_a_warning(command, tmp_path
 def test_numbers_with_exponents_keep_their_digits(command, tmp_path):
     """No more are written than make a difference, and none are lost."""
     points, faces = sheet()
-    for form, least, most in (("%.3e", 8, 12), ("%.11e", 12, 16)):
-        scaled = np.char.mod(form, points * 1e9)
+    for form, decimals, least, most in (("%.3e", 9, 8, 12), ("%.11e", 9, 12, 16), ("%.11e", 1, 12, 16)):
+        scaled = np.char.mod(form, points.round(decimals) * 1e9)
         lines = ["v " + " ".join(row) for row in scaled] + [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in faces]
         (tmp_path / "in.obj").write_text("\n".join(lines))
         assert command("denoise", tmp_path / "in.obj", tmp_path / "out.obj", *POSITIONS).code == 0
