@@ -630,6 +630,7 @@ def test_coordinates_behind_lists_of_different_lengths(tmp_path, order):
     np.testing.assert_array_equal(after.corner_vertex, faces.ravel())
 
 
+@pytest.mark.filterwarnings("error")
 def test_normals_between_faces_that_look_against_each_other_stay(tmp_path):
     """Their mean has no direction."""
     points, faces = sheet()
