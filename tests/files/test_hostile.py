@@ -418,3 +418,58 @@ def test_doubles_that_single_precision_cannot_hold_are_not_converted(command, fa
         said = fails("denoise", tmp_path / "a.obj", tmp_path / f"b.{kind}", *QUICK)
         assert f"scale the surface {way} first" in said, said
         assert not (tmp_path / f"b.{kind}").exists()
+
+
+@pytest.mark.parametrize(
+    ("mode", "expected"),
+    [
+        (5, [[0, 1, 2], [2, 1, 3], [2, 3, 4]]),
+        (6, [[0, 1, 2], [0, 2, 3], [0, 3, 4]]),
+    ],
+)
+def test_strips_and_fans_are_triangles(tmp_path, mode, expected):
+    """With indices, without, and with too few of them for a triangle."""
+    places = [("accessors.1", {"bufferView": 1, "componentType": 5121, "count": 5, "type": "SCALAR"})]
+    chunk = (
+        sheet()[0].astype("<f4").tobytes()
+        + bytes(range(5))
+        + bytes(len(sheet()[1].astype("<u4").tobytes()) - 5)
+    )
+    (tmp_path / "a.glb").write_bytes(gltf(("meshes.0.primitives.0.mode", mode), *places, chunk=chunk))
+    assert open_file(tmp_path / "a.glb").corner_vertex.reshape(-1, 3).tolist() == expected
+    (tmp_path / "a.glb").write_bytes(
+        gltf(
+            ("meshes.0.primitives", [{"attributes": {"POSITION": 0}, "mode": mode}]), ("accessors.0.count", 5)
+        )
+    )
+    assert open_file(tmp_path / "a.glb").corner_vertex.reshape(-1, 3).tolist() == expected
+    (tmp_path / "a.glb").write_bytes(gltf(("meshes.0.primitives.0.mode", mode), ("accessors.1.count", 2)))
+    assert open_file(tmp_path / "a.glb").n_faces == 0
+
+
+def test_as_many_normals_as_positions(tmp_path):
+    attributes = {"POSITION": 0, "NORMAL": 2}
+    normals = {"bufferView": 0, "componentType": 5126, "count": N - 1, "type": "VEC3"}
+    faces = sheet()[1]
+    listed = [
+        {"bufferView": 0, "componentType": 5126, "count": N, "type": "VEC3"},
+        {"bufferView": 1, "componentType": 5125, "count": faces.size, "type": "SCALAR"},
+        normals,
+    ]
+    content = gltf(("accessors", listed), ("meshes.0.primitives.0.attributes", attributes))
+    (tmp_path / "a.glb").write_bytes(content)
+    with pytest.raises(FileError, match="not one NORMAL for each position"):
+        open_file(tmp_path / "a.glb")
+
+
+def test_nodes_place_meshes_by_matrices_and_below_each_other(command, tmp_path):
+    """A node that is its own child is placed once, and without a scene all meshes are shown as they are."""
+    turned = [0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 5, 0, 0, 1]
+    nodes = [{"children": [1], "matrix": turned}, {"mesh": 0, "translation": [0, 0, 2], "children": [0]}]
+    points = sheet()[0].astype(np.float32)
+    expected = np.stack((5 - points[:, 1], points[:, 0], points[:, 2] + 2), axis=1)
+    for changes, places in (([("nodes", nodes)], expected), ([("scenes", [])], points)):
+        (tmp_path / "a.glb").write_bytes(gltf(*changes))
+        assert command("denoise", tmp_path / "a.glb", tmp_path / "b.ply", "--strength", "0").code == 0
+        np.testing.assert_allclose(open_file(tmp_path / "b.ply").positions, places, atol=1e-5)
+        (tmp_path / "b.ply").unlink()
