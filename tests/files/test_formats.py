@@ -515,6 +515,11 @@ MIXED_TYPES = CUT_TEXT.replace(b"float z", b"int z") + b"3 0 1 2\n3 0 2 1\n"
         ("a.ply", CUT_TEXT + b"3 0 1 2\n-3 0 1 2\n", "A list has a negative number of values"),
         ("a.ply", CUT_TEXT + b"3 0 1 2\n3 0 1 1e300\n", "no whole number"),
         ("a.ply", b"ply\nformat ascii 1.0\nelement face 0\nend_header\n", "no vertices with the coordinates"),
+        (
+            "a.ply",
+            CUT_TEXT.replace(b"float y", b"float why") + b"3 0 1 2\n3 0 2 1\n",
+            "The vertices have no coordinates x, y and z",
+        ),
         ("a.ply", MIXED_TYPES, "some are not; they need one type"),
         ("a.ply", CUT_BINARY[:-2], "cut off"),
         ("a.ply", CUT_BINARY[:-13], "cut off"),
@@ -646,3 +651,40 @@ def test_normals_between_faces_that_look_against_each_other_stay(tmp_path):
         (tmp_path / "b.ply").read_bytes().partition(b"end_header\n")[2], "<f4", 6 * (n + 3)
     ).reshape(-1, 6)
     np.testing.assert_allclose(rows[n:, [1, 3, 5]], [[0.6, 0, 0.8]] * 3, atol=1e-6)
+
+
+FACES = b"3 0 1 2\n3 0 2 1\n"
+EDGES = b"element edge 1\nproperty int from\nproperty int to\nend_header"
+STRIP = b"element tristrips 1\nproperty list uchar int vertex_indices\nend_header\n"
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "n_vertices", "n_faces"),
+    [
+        ("a.ply", CUT_TEXT.replace(b"end_header", EDGES) + FACES + b"0 1\n", 3, 2),
+        ("a.ply", CUT_TEXT.partition(b"element face")[0] + STRIP + b"0 0 0\n1 0 0\n0 1 0\n2 0 1\n", 3, 0),
+        ("a.ply", CUT_TEXT.partition(b"element face")[0] + STRIP + b"0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", 3, 1),
+        ("a.ply", CUT_BINARY.replace(b"face 2", b"face 0"), 3, 0),
+        ("a.ply", CUT_BINARY.replace(b"vertex 3", b"vertex 0").replace(b"face 2", b"face 0"), 0, 0),
+        ("a.obj", b"v 0 0 0 # first\nv 1_0 0 0\nv 0 1 0\nf 1/1 2/2 -1/3 # a triangle\n", 3, 1),
+        ("a.obj", b"o A\nv 0 0 0\nv 1 0 0\no B\nv 0 1 0\n", 3, 0),
+        ("a.obj", b"o A\nv 0 0 0\nv 1 0 0\nv 0 1 0\no B\nf 1 2 3\no C\nf 3 2 1\n", 3, 2),
+    ],
+)
+def test_files_that_are_odd_but_whole_are_read(tmp_path, name, content, n_vertices, n_faces):
+    (tmp_path / name).write_bytes(content)
+    file = open_file(tmp_path / name)
+    assert (len(file.positions), file.n_faces) == (n_vertices, n_faces)
+    assert file.patched(file.positions) == content
+    parts = file.parts()
+    assert sorted(np.concatenate([part.faces for part in parts]).tolist()) == list(range(n_faces))
+
+
+def test_a_face_of_vertex_0_is_told_and_left_out(command, tmp_path):
+    """Numbers of vertices begin at 1."""
+    content = full_obj() + b"f 0 1 2\n"
+    (tmp_path / "a.obj").write_bytes(content)
+    result = command("denoise", tmp_path / "a.obj", tmp_path / "b.obj", *POSITIONS)
+    assert result.code == 0 and "1 face names a vertex that does not exist" in result.err
+    assert open_file(tmp_path / "a.obj").warnings
+    assert (tmp_path / "b.obj").read_bytes().endswith(b"f 0 1 2\n")
