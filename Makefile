@@ -85,10 +85,16 @@ coverage: ## Measure which branches of core/ and operators/ the tests take
 	  $(PYTEST) --cov --cov-report= tests/files tests/batch
 	COVERAGE_FILE="$(CURDIR)/build/coverage/blender" $(ENVIRONMENT) run hunt-bpy --timeout $(HUNT_TIMEOUT) -- \
 	  $(PYTEST) --cov --cov-report= tests/blender
-	$(ENVIRONMENT) run hunt -- -m coverage report --data-file build/coverage/core --include 'core/*' --fail-under 95
 	$(ENVIRONMENT) run hunt -- -m coverage combine --keep --data-file build/coverage/all build/coverage/files \
 	  build/coverage/blender
+	$(ENVIRONMENT) run hunt -- -m coverage report --data-file build/coverage/core --include 'core/*' --fail-under 95
 	$(ENVIRONMENT) run hunt -- -m coverage report --data-file build/coverage/all --include 'operators/*' --fail-under 90
+	$(ENVIRONMENT) run hunt -- -m coverage json -q --data-file build/coverage/core --include 'core/*' \
+	  -o build/coverage/core.json
+	$(ENVIRONMENT) run hunt -- -m coverage json -q --data-file build/coverage/all --include 'operators/*' \
+	  -o build/coverage/operators.json
+	$(PYTHON) .ci/branches.py build/coverage/core.json --fail-under 95
+	$(PYTHON) .ci/branches.py build/coverage/operators.json --fail-under 90
 
 .PHONY: mutants
 mutants: ## Change single operators and numbers, and see whether a test tells

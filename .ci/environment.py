@@ -91,7 +91,8 @@ def make_environment(name: str) -> Path:
     python = interpreter(folder)
     requirements = ROOT / ".ci" / "requirements" / f"{name}.txt"
     stamp = folder / "framelet-stamp"
-    wanted = hashlib.sha256(requirements.read_bytes() + " ".join(PYTHONS[name]).encode()).hexdigest()
+    packages = b"".join(path.read_bytes() for path in with_included(requirements))
+    wanted = hashlib.sha256(packages + " ".join(PYTHONS[name]).encode()).hexdigest()
     if python.exists() and stamp.is_file() and stamp.read_text() == wanted:
         return python
 
@@ -108,6 +109,13 @@ def make_environment(name: str) -> Path:
     # Last, so that a half-made environment carries no stamp.
     stamp.write_text(wanted)
     return python
+
+
+def with_included(requirements: Path) -> list[Path]:
+    """Return a file of requirements, and those that it takes in by ``-r``."""
+    lines = [line.split() for line in requirements.read_text(encoding="utf-8").splitlines()]
+    included = [requirements.parent / words[1] for words in lines if words[:1] == ["-r"]]
+    return [requirements, *(path for each in included for path in with_included(each))]
 
 
 def find_python(versions: tuple[str, ...]) -> str:

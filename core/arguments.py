@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from .errors import MeshError, SettingError
 from .mesh.surface_mesh import SurfaceMesh
 from .settings import PRESETS, DenoiseSettings
-from .value_checks import check_choice
+from .value_checks import check_choice, shown
 
 
 def as_mesh(
@@ -69,7 +69,9 @@ def as_settings(
     framelet.core.errors.SettingError: There is no setting strenght; choose from method, strength, noise, ...
     """
     if settings is not None and not isinstance(settings, DenoiseSettings | str):
-        raise SettingError(f"The settings are {settings!r}; give DenoiseSettings or the name of a preset.")
+        raise SettingError(
+            f"The settings are {shown(settings)}; give DenoiseSettings or the name of a preset."
+        )
     if settings is not None and preset is not None:
         raise SettingError("There are settings and a preset; give one of them.")
     base = settings if isinstance(settings, DenoiseSettings) else DenoiseSettings()

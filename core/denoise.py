@@ -16,7 +16,8 @@ from .limits.finish import finish
 from .limits.region import Region
 from .limits.resolved_region import resolve
 from .memory import check_memory
-from .mesh.connectivity import Connectivity
+from .mesh.checks import check_mesh
+from .mesh.connectivity import Connectivity, check_connectivity
 from .mesh.surface_mesh import SurfaceMesh
 from .methods import METHODS
 from .methods.problem import Callback
@@ -25,6 +26,7 @@ from .preparation_cache import PreparationCache, prepared_for
 from .prepared import Prepared
 from .report import DenoiseResult, account, stopped_report
 from .settings import DEFAULT_PRESET, PRESETS, DenoiseSettings
+from .value_checks import check_callable, check_kind
 
 
 def denoise(
@@ -74,16 +76,24 @@ def denoise(
     Raises
     ------
     FrameletError
-        In one sentence, if the mesh has no faces, no size or positions that are not finite, if `movable` or
-        the region does not fit it, if `prepared` is for something else, or if it needs more than `max_bytes`.
+        In one sentence, if the mesh has no faces, no size or positions that are not finite, if `movable`, the
+        region or `connectivity` does not fit it, if `prepared` is for something else, if an argument is of
+        another type, or if it needs more than `max_bytes`.
     """
     began = perf_counter()
+    check_mesh(surface)
+    check_kind("The settings", settings, DenoiseSettings, "DenoiseSettings")
+    check_kind("The region", region, Region, "a Region", RegionError)
+    check_kind(
+        "What is prepared", prepared, (Prepared, PreparationCache), "what `prepare` returns or a cache"
+    )
+    check_connectivity(connectivity, surface)
+    check_callable("The callback", callback)
+    check_callable("What stops the run", should_stop)
     settings = settings or PRESETS[DEFAULT_PRESET].settings
-    if region is None:
-        region = Region()
-    if not isinstance(region, Region):
-        raise RegionError(f"The region is {region!r}; give a Region.")
+    region = region or Region()
     dtype = as_precision(dtype)
+    movable = None if movable is None else np.asarray(movable)
     resolved = resolve(region, surface, movable)  # what the region says about each vertex
     check_memory(surface, settings, max_bytes)
     try:

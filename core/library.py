@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 from .arguments import as_mesh, as_settings
 from .blocks import Blocks
 from .denoise import denoise as _walk
+from .errors import SettingError
 from .limits.region import Region
 from .mesh import geometry
 from .mesh.connectivity import Connectivity
@@ -28,6 +29,7 @@ from .preparation_cache import PreparationCache
 from .prepared import Prepared
 from .report import DenoiseResult
 from .settings import DenoiseSettings
+from .value_checks import check_kind
 
 
 @overload
@@ -115,6 +117,7 @@ def denoise(
     >>> denoise(vertices.reshape(-1, 3), faces, preset="quad-2", levels=2, full_output=True).report.iterations
     10
     """
+    check_kind("full_output", full_output, (bool, np.bool_), "True or False")
     is_arrays = not isinstance(mesh, SurfaceMesh)
     if not is_arrays and isinstance(faces, DenoiseSettings | str):
         given: Any = faces if settings is None else settings
@@ -125,7 +128,7 @@ def denoise(
     result = _walk(
         surface,
         as_settings(given, preset, values),
-        movable=None if movable is None else np.asarray(movable),
+        movable=movable,  # type: ignore[arg-type]
         region=region,
         connectivity=connectivity,
         callback=callback,
@@ -151,6 +154,9 @@ def bilateral_filter(
     >>> bool(np.allclose(bilateral_filter(flat, [[0, 1, 2, 3]], iterations=2), flat))
     True
     """
+    for name in ("preset", "settings", "full_output"):
+        if name in options:
+            raise SettingError(f"The bilateral filter has no {name}; call denoise, which has.")
     surface = as_mesh(mesh, faces, options.pop("offsets", None))
     return denoise(surface, preset="BILATERAL", **options).vertices
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import DTypeLike
 
 from .errors import SettingError
+from .value_checks import shown
 
 
 def as_precision(dtype: DTypeLike) -> np.dtype[Any]:
@@ -34,5 +35,5 @@ def as_precision(dtype: DTypeLike) -> np.dtype[Any]:
     except (TypeError, ValueError):
         precision = None
     if precision not in (np.float32, np.float64):
-        raise SettingError(f"The dtype is {dtype!r}; choose float32 or float64.")
+        raise SettingError(f"The dtype is {shown(dtype)}; choose float32 or float64.")
     return precision

@@ -21,8 +21,8 @@ from .limits.face_flips import FaceState
 from .limits.lines import find_lines, smoothing_of
 from .limits.resolved_region import ResolvedRegion
 from .limits.straight_borders import find_curves, straightened
-from .mesh.checks import check_positions, check_surface
-from .mesh.connectivity import Connectivity, connect
+from .mesh.checks import check_mesh, check_positions, check_surface
+from .mesh.connectivity import Connectivity, check_connectivity, connect
 from .mesh.geometry import coordinate_rows
 from .mesh.locality import Reordering, is_scattered, reorder, spatial_order
 from .mesh.normalization import normalize
@@ -30,8 +30,10 @@ from .mesh.spikes import without_spikes
 from .mesh.surface_mesh import SurfaceMesh
 from .methods.problem import Callback, Problem
 from .methods.proximal import SEPARABLE
+from .precision import as_precision
 from .settings import DEFAULT_PRESET, PRESETS, DenoiseSettings
 from .transform import FrameTransform, choose_frame, make_transform
+from .value_checks import check_callable, check_kind, check_number
 
 TOPOLOGY = tuple(item.name for item in fields(SurfaceMesh) if item.name != "vertices")
 
@@ -210,9 +212,16 @@ def prepare(
     Stopped
         If it was asked to stop.
     ValueError
-        In one sentence, if the mesh has no faces, no size or positions that are not finite, or if the frame
-        does not fit it.
+        In one sentence, if the mesh has no faces, no size or positions that are not finite, if the frame
+        does not fit it, or if an argument is of another type.
     """
+    check_mesh(surface)
+    check_kind("The settings", settings, DenoiseSettings, "DenoiseSettings")
+    check_kind("What was prepared before", previous, Prepared, "what `prepare` returned")
+    check_connectivity(connectivity, surface)
+    check_callable("What stops the work", should_stop)
+    check_number("The size of a block", block_size, 1, is_whole=True)
+    dtype = as_precision(dtype)
     settings = settings or PRESETS[DEFAULT_PRESET].settings
     if previous is not None and not previous.has_topology_of(surface):
         previous = None

@@ -10,7 +10,51 @@ from collections.abc import Iterable
 from numbers import Integral, Real
 from typing import Any
 
-from .errors import SettingError
+from .errors import FrameletError, SettingError
+
+LONGEST = 80
+"""Letters of a value that a sentence shows."""
+
+
+def shown(value: Any) -> str:
+    """Return a value as a sentence shows it: in one line, and not all of what is long.
+
+    Examples
+    --------
+    >>> shown("tri-3"), shown([[0.5]] * 99)
+    ("'tri-3'", '[[0.5], [0.5], [0.5], [0.5], [0.5], [0.5], [0.5], [0.5], [0.5], [0.5], [0.5],...')
+    """
+    try:
+        words = " ".join(repr(value).split())
+    except ValueError:  # Python writes no whole number of thousands of digits
+        words = "a huge number"
+    return words if len(words) <= LONGEST else f"{words[: LONGEST - 3]}..."
+
+
+def check_kind(
+    name: str,
+    value: Any,
+    kinds: type | tuple[type, ...],
+    wanted: str,
+    error: type[FrameletError] = SettingError,
+) -> None:
+    """Raise an error unless a value is an instance of a type, or None, which is what was not given.
+
+    Examples
+    --------
+    >>> check_kind("The memory", "1 GB", int, "bytes")
+    Traceback (most recent call last):
+    ...
+    framelet.core.errors.SettingError: The memory is '1 GB'; give bytes.
+    """
+    if value is not None and not isinstance(value, kinds):
+        raise error(f"{name} is {shown(value)}; give {wanted}.")
+
+
+def check_callable(name: str, value: Any) -> None:
+    """Raise SettingError unless a value can be called, or is None, which is what was not given."""
+    if value is not None and not callable(value):
+        raise SettingError(f"{name} is {shown(value)}; give a function.")
 
 
 def check_number(
@@ -27,20 +71,21 @@ def check_number(
     """
     is_number = isinstance(value, Integral if is_whole else Real)
     if not is_number or type(value) is bool:
-        raise SettingError(f"{name} is {value!r}; it must be a {'whole ' if is_whole else ''}number.")
-    if minimum <= value <= maximum and value != math.inf:  # also refuses NaN
+        raise SettingError(f"{name} is {shown(value)}; it must be a {'whole ' if is_whole else ''}number.")
+    is_finite = is_whole or value <= sys.float_info.max  # also of whole numbers that are no float
+    if minimum <= value <= maximum and value != math.inf and is_finite:  # also refuses NaN
         return
-    shown = "a huge number" if isinstance(value, int) and abs(value) > sys.float_info.max else f"{value:g}"
+    number = "a huge number" if isinstance(value, int) and abs(value) > sys.float_info.max else f"{value:g}"
     ends = (
         f"a finite number, at least {minimum:g}"
         if maximum == math.inf
         else f"between {minimum:g} and {maximum:g}"
     )
-    raise SettingError(f"{name} is {shown}; it must be {ends}.")
+    raise SettingError(f"{name} is {number}; it must be {ends}.")
 
 
 def check_choice(name: str, value: Any, choices: Iterable[str]) -> None:
     """Raise SettingError unless a value is one of some words."""
     words = list(choices)
     if not isinstance(value, str) or value not in words:
-        raise SettingError(f"{name} is {value!r}; choose one of {', '.join(words)}.")
+        raise SettingError(f"{name} is {shown(value)}; choose one of {', '.join(words)}.")

@@ -9,11 +9,18 @@ from numpy.typing import NDArray
 
 from ..blocks import Blocks
 from ..errors import MeshError
+from ..value_checks import shown
 from .geometry import mean_edge_length
 from .surface_mesh import SurfaceMesh
 
 ROOM = 8.0
 """How far a coordinate must be from the largest number, as a factor: a result may lie farther out."""
+
+
+def check_mesh(surface: SurfaceMesh) -> None:
+    """Raise MeshError, in one sentence, unless this is a mesh."""
+    if not isinstance(surface, SurfaceMesh):
+        raise MeshError(f"The mesh is {shown(surface)}; give a SurfaceMesh.")
 
 
 def check_positions(surface: SurfaceMesh) -> None:

@@ -10,6 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
+from ..errors import MeshError
+from ..value_checks import check_kind
 from .half_edges import find_half_edges, last_corners
 from .ragged import stretches
 from .ring_filling import Rings, fill_rings
@@ -197,6 +199,23 @@ def connect(
         has_triangle_pairs=has_triangle_pairs,
         labels=labels,
     )
+
+
+def check_connectivity(connectivity: Connectivity | None, surface: SurfaceMesh) -> None:
+    """Raise MeshError, in one sentence, if these are no neighborhoods, or those of a mesh with other numbers.
+
+    That the mesh has the same faces is not looked at; that would take as long as to find the neighborhoods.
+    """
+    check_kind("The connectivity", connectivity, Connectivity, "what `connect` returns", MeshError)
+    if connectivity is None:
+        return
+    known = (connectivity.n_vertices, len(connectivity.face_across), len(connectivity.edge_face_count))
+    own = (surface.n_vertices, surface.n_faces and surface.n_corners, surface.n_edges)
+    if known != own:
+        raise MeshError(
+            "The connectivity is of a mesh with {} vertices, {} corners and {} edges, but this one has "
+            "{}, {} and {}; connect it again.".format(*known, *own)
+        )
 
 
 def _counted(owner: NDArray[np.int32], n_owners: int) -> NDArray[np.intp]:

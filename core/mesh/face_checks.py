@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import MeshError
+from ..value_checks import shown
 
 if TYPE_CHECKING:
     from .surface_mesh import SurfaceMesh
@@ -58,7 +59,9 @@ def corner_list(
         flat = whole_numbers(np.asarray(faces), "faces").reshape(-1)
         return flat, np.arange(len(faces) + 1, dtype=np.int32) * np.int32(faces.shape[1])
     if not isinstance(faces, Iterable):
-        raise MeshError(f"The faces are {faces!r}; expected an array of shape (F, k) or a list of lists.")
+        raise MeshError(
+            f"The faces are {shown(faces)}; expected an array of shape (F, k) or a list of lists."
+        )
     rows: list[Any] = list(faces)
     if any(np.ndim(row) != 1 for row in (rows[:1] if rows else ())) or not all(
         hasattr(row, "__len__") for row in rows

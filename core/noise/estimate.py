@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
-from ..mesh.checks import check_surface
-from ..mesh.connectivity import Connectivity, connect
+from ..mesh.checks import check_mesh, check_surface
+from ..mesh.connectivity import Connectivity, check_connectivity, connect
 from ..mesh.normalization import normalize
 from ..mesh.surface_mesh import SurfaceMesh
 from .fits import Residuals, fit_heights
@@ -105,7 +105,8 @@ def estimate_noise(
     Raises
     ------
     ValueError
-        If the mesh has no faces, no size or positions that are not finite.
+        If the mesh has no faces, no size or positions that are not finite, or if the neighborhoods are not
+        its own.
 
     Notes
     -----
@@ -118,6 +119,8 @@ def estimate_noise(
     The noise has to be white: independent from vertex to vertex. A mesh whose own detail is that fine has it
     counted as noise.
     """
+    check_mesh(surface)
+    check_connectivity(connectivity, surface)
     edge = check_surface(surface)
     blocks = blocks or Blocks(1)
     connectivity = connectivity or connect(surface, blocks)

@@ -7,10 +7,12 @@ from __future__ import annotations
 import csv
 import io
 import json
+import os
 import re
 from pathlib import Path
 from typing import NamedTuple
 
+from ...core.value_checks import shown
 from .inputs import PlanError
 
 _OPTION = re.compile(r"[a-z][a-z0-9-]*")
@@ -71,8 +73,11 @@ def read_manifest(path: Path) -> list[Row]:
 def _csv_rows(text: str, path: Path) -> list[tuple[str, dict[str, object]]]:
     reader = csv.DictReader(io.StringIO(text, newline=""), strict=True)
     try:
-        if "input" not in (reader.fieldnames or ()):
+        names = reader.fieldnames or ()
+        if "input" not in names:
             raise PlanError(f"{path} has no column ‘input’; its first line must name the columns.")
+        if twice := next((name for name in names if names.count(name) > 1), None):
+            raise PlanError(f"{path} has two columns ‘{twice}’; leave one of them out.")
         return [(f"line {reader.line_num}", dict(row)) for row in reader]
     except csv.Error as error:
         raise PlanError(f"{path}, line {reader.line_num}: {error}.") from error
@@ -80,7 +85,8 @@ def _csv_rows(text: str, path: Path) -> list[tuple[str, dict[str, object]]]:
 
 def _json_rows(text: str, path: Path) -> list[tuple[str, dict[str, object]]]:
     rows = []
-    for number, line in enumerate(text.splitlines(), 1):
+    # Not at other line ends, as U+2028, which JSON texts may hold.
+    for number, line in enumerate(text.split("\n"), 1):
         if not line.strip():
             continue
         try:
@@ -99,6 +105,11 @@ def _row(values: dict[str, object], path: Path, where: str) -> Row:
     source = named.pop("input", "")
     output, kind = named.pop("output", ""), named.pop("format", "")
     error = "" if source else f"{path}, {where}, names no input."
+    for key in ("input", "output", "format"):
+        if not isinstance(values.get(key), str | None):
+            error = f"{path}, {where}: ‘{key}’ is {shown(values[key])}; it must be a text."
+        elif not _can_be_a_name(values.get(key)):
+            error = f"{path}, {where}: no file can be named as ‘{key}’ is: {shown(values[key])}."
     if None in values:
         error = f"{path}, {where}, has more cells than there are columns."
     options = []
@@ -112,6 +123,14 @@ def _row(values: dict[str, object], path: Path, where: str) -> Row:
             options.append(f"--{name}={value}")
     # Inputs are where the manifest is, wherever the command is run.
     return Row(path.parent / source, output, kind, options, error)
+
+
+def _can_be_a_name(text: object) -> bool:
+    """Return whether the system takes a text as the name of a file."""
+    try:
+        return "\0" not in os.fsdecode(os.fsencode(str(text)))
+    except UnicodeEncodeError:
+        return False
 
 
 def _text(value: object) -> str:

@@ -69,7 +69,8 @@ def _task(found: Found, row: Row | None, number: int, arguments: argparse.Namesp
             name = named(arguments.name, found.name, kind, number, as_word(arguments.preset))
         target = place_in(arguments.out, name, arguments.allow_outside)
         if target.suffix.lower() not in TYPES:
-            raise PlanError(f"{source} is no mesh file; its name must end in {', '.join(TYPES)}.")
+            wrong = target if row is not None and row.output else source
+            raise PlanError(f"{wrong} is no mesh file; its name must end in {', '.join(TYPES)}.")
         root = os.path.abspath(arguments.out)
         below = target.relative_to(root).as_posix() if target.is_relative_to(root) else str(target)
         return Task(

@@ -129,6 +129,6 @@ def _shape(
         return None
     try:
         file = open_file(path)
+        return file.scene(file.positions)
     except FileError:
         return None
-    return file.scene(file.positions)

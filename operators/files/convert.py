@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .mesh_file import FileError, MeshFile
+from .mesh_file import FileError, MeshFile, check_range
 
 
 def triangles_of(face_offset: NDArray[Any], corner_vertex: NDArray[Any]) -> NDArray[np.int64]:
@@ -51,17 +51,16 @@ def converted(file: MeshFile, positions: NDArray[np.floating], kind: str) -> tup
     Raises
     ------
     FileError
-        In one sentence, if the format cannot be written without the file that it patches.
+        In one sentence, if the format cannot be written without the file that it patches, or if it cannot
+        hold the positions.
     """
     from . import gltf, obj, ply, stl
 
     positions = np.asarray(positions, np.float64)
     if file.precision == np.float32:
         positions = positions.astype(np.float32)
-    try:
-        positions, face_offset, corner_vertex = file.scene(positions)
-    except (KeyError, IndexError, TypeError, ValueError, AttributeError) as error:
-        raise FileError(f"The scene of the file is damaged ({type(error).__name__}).") from error
+    positions, face_offset, corner_vertex = file.scene(positions)
+    check_range(positions, np.dtype(np.float32) if kind in (".stl", ".glb") else positions.dtype)
     lost = list(file.extras)
     if kind in (".stl", ".glb") and len(face_offset) > 1 and np.diff(face_offset).max() > 3:
         lost.append("faces with more than three corners, which become triangles")

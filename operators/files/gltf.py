@@ -22,18 +22,12 @@ from numpy.typing import NDArray
 from . import json_spans
 from .convert import triangles_of
 from .gltf_buffers import Buffers, Stored, as_count, as_stored, is_file
-from .gltf_container import Container, as_binary
-from .gltf_primitives import FAN, STRIP, TRIANGLES, Primitive, shading, triangles
+from .gltf_container import Container, as_binary, refuse_compression
+from .gltf_primitives import FAN, STRIP, TRIANGLES, Primitive, check_overlaps, check_room, shading, triangles
 from .gltf_scene import placed_meshes
-from .mesh_file import ROUNDED, FileError, MeshFile, Part, members
+from .mesh_file import ROUNDED, FileError, MeshFile, Part, check_range, members
 from .normals import renewed_normals, renewed_tangents
 from .places import merge_equal
-
-COMPRESSIONS = {
-    "KHR_draco_mesh_compression": "Draco",
-    "EXT_meshopt_compression": "meshopt",
-    "KHR_meshopt_compression": "meshopt",
-}
 
 
 class GltfFile(MeshFile):
@@ -62,7 +56,7 @@ class GltfFile(MeshFile):
         super().__init__(name)
         self._container = Container(data)
         self._text, self._json = self._container.text, self._container.content
-        self._refuse_compression()
+        refuse_compression(self._json)
         self._buffers = Buffers(self._json, self._container.chunk, folder)
         self._bytes, self._buffer_begin = self._buffers.bytes, self._buffers.begin
         self._uris = self._buffers.uris
@@ -72,20 +66,8 @@ class GltfFile(MeshFile):
         self.renames: dict[str, str] = {}
         """New names of files that the file refers to, for the next `patched`."""
 
-    def _refuse_compression(self) -> None:
-        """Raise FileError if the geometry is compressed."""
-        views = self._json.get("bufferViews", [])
-        primitives = [each for mesh in self._json.get("meshes", []) for each in mesh.get("primitives", [])]
-        for item in [*views, *primitives]:
-            for name in item.get("extensions", {}):
-                if name in COMPRESSIONS:
-                    raise FileError(
-                        f"The meshes are compressed with {COMPRESSIONS[name]}; save the file without "
-                        "compression first, as Blender's exporter does when its option Compression is off."
-                    )
-
     def _read_primitives(self) -> None:
-        found = []  # mesh, accessors, triangles
+        found, n_corners = [], 0  # mesh, accessors, indices, triangles
         self._accessors: dict[int, Stored] = {}
         for number, mesh in enumerate(self._json.get("meshes", [])):
             for primitive in mesh["primitives"]:
@@ -98,7 +80,11 @@ class GltfFile(MeshFile):
                     if self._accessors[at].width != 3:
                         raise FileError("Positions have not three coordinates; the file is damaged.")
                 count = len(self._accessors[at].at)
-                found.append((number, attributes, triangles(self._buffers, primitive, mode, count)))
+                indices = self._buffers.stored(primitive["indices"]) if "indices" in primitive else None
+                corners = triangles(self._buffers, indices, mode, count)
+                found.append((number, attributes, indices, corners))
+                n_corners += corners.size
+                self._buffers.check_size(n_corners, "corners")
         places = [stored.at for stored in self._accessors.values()]
         sizes = np.cumsum([0, *map(len, places)])
         if len(places) == 1 and (np.diff(places[0]) > 0).all():
@@ -124,12 +110,14 @@ class GltfFile(MeshFile):
                 corners,
                 shading(self._buffers, attributes, "NORMAL", 3, len(self._vertex[attributes["POSITION"]])),
                 shading(self._buffers, attributes, "TANGENT", 4, len(self._vertex[attributes["POSITION"]])),
+                indices,
             )
-            for number, attributes, corners in found
+            for number, attributes, indices, corners in found
         ]
-        self._names = {name for _number, attributes, _corners in found for name in attributes}
-        corners = [each.vertex[each.triangles].reshape(-1) for each in self._primitives]
-        self.corner_vertex = np.concatenate(corners) if corners else np.zeros(0, np.int64)
+        check_overlaps(self._buffers, list(self._accessors.values()), self._primitives)
+        self._names = {name for _number, attributes, _indices, _corners in found for name in attributes}
+        all_corners = [each.vertex[each.triangles].reshape(-1) for each in self._primitives]
+        self.corner_vertex = np.concatenate(all_corners) if all_corners else np.zeros(0, np.int64)
         self.face_offset = np.arange(0, len(self.corner_vertex) + 1, 3)
         if any(stored.dtype.kind != "f" for stored in self._accessors.values()):
             self.warnings.append(ROUNDED)
@@ -192,10 +180,10 @@ class GltfFile(MeshFile):
 
     def _changing_buffers(self) -> list[int]:
         """Return the buffers that positions, normals or tangents are stored in."""
-        places = [stored.at[stored.at >= 0] for stored in self._accessors.values()]
+        written = dict.fromkeys(self._accessors.values())
         for each in self._primitives:
-            places += [stored.at for stored in (each.normal, each.tangent) if stored is not None]
-        joined = np.concatenate(places) if places else np.zeros(0, np.int64)
+            written |= dict.fromkeys(stored for stored in (each.normal, each.tangent) if stored is not None)
+        joined = np.concatenate([stored.at for stored in written]) if written else np.zeros(0, np.int64)
         number = np.searchsorted(self._buffer_begin, joined[joined >= 0], side="right") - 1
         return np.unique(number).tolist()
 
@@ -261,21 +249,31 @@ class GltfFile(MeshFile):
         primitives = [each for each in self._primitives if each.normal is not None]
         if not primitives:
             return
-        stored = [each.normal for each in primitives if each.normal is not None]
+        # Many primitives may use the same vertices and normals: these are worked on once.
+        shared: dict[tuple[int, int], list[Primitive]] = {}
+        for each in primitives:
+            shared.setdefault((id(each.vertex), id(each.normal)), []).append(each)
+        first = [some[0] for some in shared.values()]
+        stored = [each.normal for each in first if each.normal is not None]
         begin = np.cumsum([0, *(len(each.at) for each in stored)])
         normals, chosen = renewed_normals(
             np.concatenate([self._buffers.values(each) for each in stored]),
-            np.concatenate([self._place[each.vertex] for each in primitives]),
-            np.concatenate([each.vertex[each.triangles] for each in primitives]),
-            np.concatenate([each.triangles + at for each, at in zip(primitives, begin[:-1], strict=True)]),
+            np.concatenate([self._place[each.vertex] for each in first]),
+            np.concatenate([each.vertex[each.triangles] for some in shared.values() for each in some]),
+            np.concatenate(
+                [
+                    each.triangles + at
+                    for some, at in zip(shared.values(), begin[:-1], strict=True)
+                    for each in some
+                ]
+            ),
             after,
             moved,
         )
-        for primitive, where, start, stop in zip(primitives, stored, begin[:-1], begin[1:], strict=True):
+        for some, where, start, stop in zip(shared.values(), stored, begin[:-1], begin[1:], strict=True):
             own, is_new = normals[start:stop], chosen[start:stop] & (where.at >= 0)
             self._buffers.store(content, where, is_new, own[is_new])
-            at = primitive.tangent
-            if at is not None:
+            for at in dict.fromkeys(each.tangent for each in some if each.tangent is not None):
                 tangents, is_turned = renewed_tangents(self._buffers.values(at), own)
                 is_turned &= is_new & (at.at >= 0)
                 self._buffers.store(content, at, is_turned, tangents[is_turned])
@@ -289,18 +287,24 @@ class GltfFile(MeshFile):
             used = [mesh for mesh, _matrix in meshes]
             if len(set(used)) == len(used) == len({each.mesh for each in self._primitives}):
                 return positions, self.face_offset, self.corner_vertex
+        of_mesh: dict[int, list[Primitive]] = {}
+        for each in self._primitives:
+            of_mesh.setdefault(each.mesh, []).append(each)
+        check_room([each for mesh, _matrix in meshes for each in of_mesh.get(mesh, ())])
         points, corners, n = [], [], 0
         for mesh, matrix in meshes:
-            for each in (each for each in self._primitives if each.mesh == mesh):
+            for each in of_mesh.get(mesh, ()):
                 rows = np.asarray(positions, np.float64)[each.vertex]
                 points.append(rows @ matrix[:3, :3].T + matrix[:3, 3])
                 turned = each.triangles[:, ::-1] if np.linalg.det(matrix[:3, :3]) < 0 else each.triangles
                 corners.append(turned.reshape(-1) + n)
                 n += len(rows)
         if not points:
-            return positions[:0], np.zeros(1, np.int64), np.zeros(0, np.int64)
+            raise FileError("The scene of the file shows none of its meshes.")
         corner = np.concatenate(corners)
-        return np.concatenate(points).astype(positions.dtype), np.arange(0, len(corner) + 1, 3), corner
+        placed = np.concatenate(points)
+        check_range(placed, positions.dtype)
+        return placed.astype(positions.dtype), np.arange(0, len(corner) + 1, 3), corner
 
 
 def new_file(

@@ -19,6 +19,12 @@ from .mesh_file import FileError, doubles
 COMPONENTS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
 
+MOST_ELEMENTS = (4, 2**19)
+"""Elements of accessors, and corners, for each byte and beside: a small file must not fill the memory.
+
+Files that share have few more elements than bytes.
+"""
+
 
 @dataclass(frozen=True, eq=False)
 class Stored:
@@ -40,6 +46,11 @@ class Stored:
     dtype: np.dtype
     width: int
     is_normalized: bool
+
+    @property
+    def size(self) -> int:
+        """Bytes of an element."""
+        return self.dtype.itemsize * self.width
 
     @property
     def scale(self) -> float:
@@ -81,20 +92,29 @@ class Buffers:
         sizes = [len(found) for found in buffers]
         self.begin = np.concatenate(([0], np.cumsum(sizes))).astype(np.int64)
         self.bytes = np.frombuffer(b"".join(buffers), np.uint8)
+        self._stored: dict[int, Stored] = {}
+        self._n_elements = 0
 
     def stored(self, number: Any) -> Stored:
-        """Find out where the values of an accessor are."""
-        accessor = self._json["accessors"][as_count(number)]
+        """Find out where the values of an accessor are; the same object whenever it is asked for."""
+        if as_count(number) not in self._stored:
+            found = self._find(number)
+            self._n_elements += len(found.at)
+            self.check_size(self._n_elements, "elements")
+            self._stored[number] = found
+        return self._stored[number]
+
+    def _find(self, number: int) -> Stored:
+        accessor = self._json["accessors"][number]
         count, dtype = as_count(accessor["count"]), np.dtype(COMPONENTS[accessor["componentType"]])
         width = WIDTHS[accessor["type"]]
         size = dtype.itemsize * width
         if "bufferView" in accessor:
             at = self._elements(accessor["bufferView"], accessor.get("byteOffset", 0), count, size)
         else:
-            if count > self.begin[-1] + 2**24:
-                raise FileError(f"An accessor has {count:,} elements but no data; the file is damaged.")
+            self.check_size(self._n_elements + count, "elements")
             # Zeros that are stored nowhere; each is a place of its own.
-            at = -1 - np.arange(count, dtype=np.int64) - as_count(number) * 2**33
+            at = -1 - np.arange(count, dtype=np.int64) - number * 2**33
         sparse = accessor.get("sparse")
         if sparse is not None:
             n, indices, values = as_count(sparse["count"]), sparse["indices"], sparse["values"]
@@ -116,11 +136,43 @@ class Buffers:
         found = self._json["bufferViews"][as_count(view)]
         buffer, stride = as_count(found["buffer"]), as_count(found.get("byteStride", 0)) or size
         stride = size if is_tight else stride
-        begin = as_count(found.get("byteOffset", 0)) + as_count(offset)
-        room = int(self.begin[buffer + 1] - self.begin[buffer])
-        if stride < size or (count and begin + (count - 1) * stride + size > room):
-            raise FileError(f"A view of {count:,} elements is larger than its buffer; the file is damaged.")
-        return np.arange(count, dtype=np.int64) * stride + begin + int(self.begin[buffer])
+        begin, length = as_count(found.get("byteOffset", 0)), as_count(found["byteLength"])
+        offset = as_count(offset)
+        if begin + length > self.begin[buffer + 1] - self.begin[buffer]:
+            raise FileError(f"A view of {length:,} bytes ends behind its buffer; the file is damaged.")
+        # What lies behind a view belongs to others, which must not be written to.
+        if stride < size or (count and offset + (count - 1) * stride + size > length):
+            raise FileError(f"An accessor of {count:,} elements ends behind its view; the file is damaged.")
+        return np.arange(count, dtype=np.int64) * stride + offset + begin + int(self.begin[buffer])
+
+    def is_apart(self, some: list[Stored], others: list[Stored]) -> bool:
+        """Return whether no byte belongs to elements of both; all have elements."""
+
+        # Almost always whole views lie one behind the other, and their ends tell.
+        begins = np.array([each.at.min() for each in others])
+        ends = np.array([each.at.max() + each.size for each in others])
+        inside = [
+            each for each in some if ((each.at.min() < ends) & (begins < each.at.max() + each.size)).any()
+        ]
+        if not inside:
+            return True
+        is_taken = np.zeros(len(self.bytes), bool)
+        for one in inside:
+            is_taken[self._bytes_of(one)] = True
+        return not any(is_taken[self._bytes_of(each)].any() for each in others)
+
+    @staticmethod
+    def _bytes_of(stored: Stored) -> NDArray[np.int64]:
+        """Return the numbers of all bytes of what is stored somewhere, shape (m, size)."""
+        return stored.at[stored.at >= 0, None] + np.arange(stored.size)
+
+    def check_size(self, count: int, what: str) -> None:
+        """Raise FileError if there are more of something than the buffers can speak of."""
+        each, beside = MOST_ELEMENTS
+        if count > each * len(self.bytes) + beside:
+            raise FileError(
+                f"The file names {count:,} {what}, but holds {len(self.bytes):,} bytes; it is damaged."
+            )
 
     def numbers(self, at: NDArray[np.int64], dtype: np.dtype, width: int) -> NDArray[Any]:
         """Return stored numbers, shape (n, width); zeros where nothing is stored."""

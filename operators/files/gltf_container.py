@@ -14,6 +14,11 @@ from numpy.typing import NDArray
 from .mesh_file import FileError
 
 MAGIC, JSON_CHUNK, BIN_CHUNK = b"glTF", 0x4E4F534A, 0x004E4942
+COMPRESSIONS = {
+    "KHR_draco_mesh_compression": "Draco",
+    "EXT_meshopt_compression": "meshopt",
+    "KHR_meshopt_compression": "meshopt",
+}
 _HEAD = 20  # bytes before the JSON text of a GLB file
 
 
@@ -95,6 +100,19 @@ class Container:
             rest[at : at + len(self.chunk)] = chunk.tobytes()[: len(self.chunk)]
         length = struct.unpack_from("<I", self._data, 8)[0] + len(text) - size
         return self._data[:8] + struct.pack("<III", length, len(text), JSON_CHUNK) + text + bytes(rest)
+
+
+def refuse_compression(content: dict[str, Any]) -> None:
+    """Raise FileError if the JSON text of a file says that its geometry is compressed."""
+    views = content.get("bufferViews", [])
+    primitives = [each for mesh in content.get("meshes", []) for each in mesh.get("primitives", [])]
+    for item in [*views, *primitives]:
+        for name in item.get("extensions", {}):
+            if name in COMPRESSIONS:
+                raise FileError(
+                    f"The meshes are compressed with {COMPRESSIONS[name]}; save the file without "
+                    "compression first, as Blender's exporter does when its option Compression is off."
+                )
 
 
 def as_binary(text: bytes, chunk: bytes) -> bytes:

@@ -9,6 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .gltf_buffers import as_count
+from .mesh_file import FileError
+
 
 def placed_meshes(content: dict[str, Any]) -> list[tuple[int, NDArray[np.float64]]]:
     """Return the meshes that the scene shows and their matrices, shape (4, 4).
@@ -18,17 +21,31 @@ def placed_meshes(content: dict[str, Any]) -> list[tuple[int, NDArray[np.float64
     content : dict
         The JSON text of a glTF file.
 
+    Raises
+    ------
+    FileError
+        In one sentence, if a node does not exist, or names no mesh or no place.
+
     Examples
     --------
     >>> nodes = [{"translation": [1, 0, 0], "children": [1]}, {"mesh": 0, "scale": [2, 2, 2]}]
-    >>> ((mesh, matrix),) = placed_meshes({"nodes": nodes, "scenes": [{"nodes": [0]}], "scene": 0})
+    >>> ((mesh, matrix),) = placed_meshes({"nodes": nodes, "scenes": [{"nodes": [0]}], "meshes": [{}]})
     >>> mesh, matrix[:3, 3].tolist(), float(matrix[0, 0])
     (0, [1.0, 0.0, 0.0], 2.0)
     """
-    nodes, scenes = content.get("nodes", []), content.get("scenes", [])
+    try:
+        return _placed(content)
+    except (LookupError, TypeError, ValueError, AttributeError) as error:
+        if isinstance(error, FileError):
+            raise
+        raise FileError(f"The scene of the file is damaged ({type(error).__name__}).") from error
+
+
+def _placed(content: dict[str, Any]) -> list[tuple[int, NDArray[np.float64]]]:
+    nodes, scenes, n_meshes = content.get("nodes", []), content.get("scenes", []), len(content["meshes"])
     if not scenes:
-        return [(number, np.eye(4)) for number in range(len(content.get("meshes", [])))]
-    roots = scenes[content.get("scene", 0)].get("nodes", [])
+        return [(number, np.eye(4)) for number in range(n_meshes)]
+    roots = scenes[as_count(content.get("scene", 0))].get("nodes", [])
     found, seen = [], set()
     waiting = [(root, np.eye(4)) for root in reversed(roots)]
     while waiting:
@@ -36,10 +53,17 @@ def placed_meshes(content: dict[str, Any]) -> list[tuple[int, NDArray[np.float64
         if number in seen:  # each node has one parent; a circle would never end
             continue
         seen.add(number)
-        node = nodes[number]
-        matrix = above @ _matrix(node)
+        node = nodes[as_count(number)]
+        with np.errstate(over="ignore", invalid="ignore"):
+            matrix = above @ _matrix(node)
+        if not np.isfinite(matrix).all():
+            raise FileError(f"Node {number} is placed by numbers that are not finite; the file is damaged.")
         if "mesh" in node:
-            found.append((int(node["mesh"]), matrix))
+            if as_count(node["mesh"]) >= n_meshes:
+                raise FileError(
+                    f"Node {number} names mesh {node['mesh']}, but there are {n_meshes}; the file is damaged."
+                )
+            found.append((node["mesh"], matrix))
         waiting += [(child, matrix) for child in reversed(node.get("children", []))]
     return found
 

@@ -185,6 +185,26 @@ def check_indices(
     )
 
 
+def check_range(positions: NDArray[np.floating], precision: np.dtype) -> None:
+    """Raise FileError, in one sentence, if numbers of a precision cannot hold positions.
+
+    Examples
+    --------
+    >>> try:
+    ...     check_range(np.array([[0.0, 0.0, 1e60]]), np.dtype(np.float32))
+    ... except FileError as error:
+    ...     print(str(error).partition(", ")[0])
+    The coordinates go to 1e+60
+    """
+    size, limits = float(np.abs(positions).max(initial=0.0)), np.finfo(precision)
+    if size <= float(limits.max) and not 0.0 < size < float(limits.tiny):
+        return
+    raise FileError(
+        f"The coordinates go to {size:.3g}, which the {limits.dtype} numbers of the new file cannot hold; "
+        f"scale the surface {'up' if size < 1.0 else 'down'} first."
+    )
+
+
 def members(owner: NDArray[np.integer], n_owners: int) -> list[NDArray[np.int64]]:
     """Return the elements of each owner, ascending, whatever their number; negative owners own nothing.
 

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import codecs
 from typing import Any
 
 import numpy as np
@@ -37,16 +38,18 @@ class StlFile(MeshFile):
         super().__init__(name)
         self._data = data
         n = int(np.frombuffer(data, "<u4", 1, HEAD - 4)[0]) if len(data) >= HEAD else 0
-        size = HEAD + TRIANGLE.itemsize * n
-        looks_like_text = data.lstrip()[:5].lower() == b"solid"
+        size, room = HEAD + TRIANGLE.itemsize * n, (len(data) - HEAD) // TRIANGLE.itemsize
+        looks_like_text = data.removeprefix(codecs.BOM_UTF8).lstrip()[:5].lower() == b"solid"
         self._is_text = looks_like_text and len(data) != size and b"\0" not in data[: HEAD + 512]
+        said = f"The header speaks of {n:,} triangles, but the file has room for {room:,}"
         if not self._is_text and (len(data) < HEAD or len(data) < size):
             if len(data) < HEAD or n == 0:
                 raise FileError("The file is no STL file: it begins neither with ‘solid’ nor with a header.")
-            raise FileError(
-                f"The header speaks of {n:,} triangles, but the file has room for "
-                f"{(len(data) - HEAD) // TRIANGLE.itemsize:,}; it was cut off or is damaged."
-            )
+            raise FileError(f"{said}; it was cut off or is damaged.")
+        if not self._is_text and room > n:
+            if not n:  # as programs leave it that were stopped before they knew the number
+                raise FileError(f"{said}; it was not written to its end or is damaged.")
+            self.warnings.append(f"{said}; what lies behind them is left alone.")
         corners = self._read_text() if self._is_text else self._read_binary(n)
         self._vertex, first = merge_equal(corners)
         self.positions = doubles(corners[first])

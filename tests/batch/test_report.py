@@ -126,3 +126,17 @@ def test_pictures_of_nothing():
     assert (empty == 255).all() and as_png(empty).endswith(b"IEND\xaeB`\x82")
     points = np.full((3, 3), np.nan)
     assert (picture(points, np.array([0, 3]), np.arange(3), view_of(points), 10) == 255).all()
+
+
+def test_files_whose_scene_cannot_be_shown_have_no_pictures(tmp_path):
+    """The meshes of the file can be denoised, but what it shows is damaged."""
+    scans, page = tmp_path / "scans", tmp_path / "look.html"
+    scans.mkdir()
+    (scans / "a.obj").write_text(obj(1))
+    assert main(["denoise", str(scans / "a.obj"), str(scans / "b.glb"), "--strength", "0"]) == 0
+    content = (scans / "b.glb").read_bytes()
+    assert b'"scene":0' in content
+    (scans / "b.glb").write_bytes(content.replace(b'"scene":0', b'"scene":7'))
+    assert main(["batch", str(scans), "--out", str(tmp_path / "out"), "--preset", "tri-2"]) == 0
+    assert report(tmp_path / "out", "--html", page, "--quiet") == 0
+    assert page.read_text().count("data:image/png") == 2

@@ -138,6 +138,17 @@ def test_materials_and_textures_go_along(command, tmp_path):
     assert (folder / "my materials.mtl").read_text() == "another"
 
 
+def test_of_names_with_spaces_the_whole_one_counts(command, tmp_path):
+    folder = tmp_path / "elsewhere"
+    folder.mkdir()
+    (tmp_path / "in.obj").write_bytes(full_obj())
+    (tmp_path / "my materials.mtl").write_text("newmtl A\nmap_Kd tile 1.png\n")
+    for name in ("tile 1.png", "1.png"):
+        (tmp_path / name).write_bytes(b"picture")
+    assert command("denoise", tmp_path / "in.obj", folder / "out.obj", *QUICK).code == 0
+    assert names(folder) == ["my materials.mtl", "out.obj", "tile 1.png"]
+
+
 def test_several_material_files_and_textures_of_a_ply_go_along(command, tmp_path):
     folder = tmp_path / "elsewhere"
     folder.mkdir()

@@ -487,6 +487,16 @@ def test_gltf_cannot_be_made_of_others(fails, tmp_path):
     assert "write .glb" in sentence
 
 
+CUT_TEXT = (
+    b"ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+    b"element face 2\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n"
+)
+CUT_BINARY = CUT_TEXT.partition(b"0 0 0")[0].replace(b"ascii", b"binary_little_endian") + struct.pack(
+    "<9fB3iB3i", *[0, 0, 0, 1, 0, 0, 0, 1, 0], 3, 0, 1, 2, 3, 0, 2, 1
+)
+MIXED_TYPES = CUT_TEXT.replace(b"float z", b"int z") + b"3 0 1 2\n3 0 2 1\n"
+
+
 @pytest.mark.parametrize(
     ("name", "content", "message"),
     [
@@ -500,6 +510,24 @@ def test_gltf_cannot_be_made_of_others(fails, tmp_path):
         ),
         ("a.ply", full_ply("binary_little_endian")[0][:-2000], "cut off"),
         ("a.ply", full_ply("ascii")[0][:-200], "cut off"),
+        ("a.ply", CUT_TEXT + b"3 0 1 2\n", "The file ends within"),
+        ("a.ply", CUT_TEXT + b"3 0 1 2\n3 0 1", "The file ends within"),
+        ("a.ply", CUT_TEXT + b"3 0 1 2\n-3 0 1 2\n", "A list has a negative number of values"),
+        ("a.ply", CUT_TEXT + b"3 0 1 2\n3 0 1 1e300\n", "no whole number"),
+        ("a.ply", b"ply\nformat ascii 1.0\nelement face 0\nend_header\n", "no vertices with the coordinates"),
+        (
+            "a.ply",
+            CUT_TEXT.replace(b"float y", b"float why") + b"3 0 1 2\n3 0 2 1\n",
+            "The vertices have no coordinates x, y and z",
+        ),
+        ("a.ply", MIXED_TYPES, "some are not; they need one type"),
+        ("a.ply", CUT_BINARY[:-2], "cut off"),
+        ("a.ply", CUT_BINARY[:-13], "cut off"),
+        (
+            "a.ply",
+            CUT_BINARY.replace(b"uchar int", b"char int").replace(b"\x03\0", b"\xfd\0", 1),
+            "A list has -3 values",
+        ),
         ("a.obj", b"v 0 0 zero\n", "stands where a number should be"),
         ("a.obj", b"v 0 0\n", "less than three coordinates"),
         ("a.stl", full_stl_binary()[:-1], "has room for"),
@@ -555,3 +583,108 @@ def test_normals_of_no_direction_are_renewed_without_a_warning(command, tmp_path
     assert content.count(before) == 1
     (tmp_path / "a.ply").write_bytes(content.replace(before, np.uint32(0x7FA00000).tobytes()))
     assert command("denoise", tmp_path / "a.ply", tmp_path / "b.ply", "--preset", "tri-2").code == 0
+
+
+def test_numbers_with_exponents_keep_their_digits(command, tmp_path):
+    """No more are written than make a difference, and none are lost."""
+    points, faces = sheet()
+    for form, decimals, least, most in (("%.3e", 9, 8, 12), ("%.11e", 9, 12, 16), ("%.11e", 1, 12, 16)):
+        scaled = np.char.mod(form, points.round(decimals) * 1e9)
+        lines = ["v " + " ".join(row) for row in scaled] + [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in faces]
+        (tmp_path / "in.obj").write_text("\n".join(lines))
+        assert command("denoise", tmp_path / "in.obj", tmp_path / "out.obj", *POSITIONS).code == 0
+        new = [
+            line.split()[1:] for line in (tmp_path / "out.obj").read_text().splitlines() if line[:2] == "v "
+        ]
+        words = [
+            word for row, old in zip(new, scaled.tolist(), strict=True) for word in row if word not in old
+        ]
+        mantissas = [re.sub(r"\D", "", word.partition("e")[0]).strip("0") for word in words]
+        assert least <= max(map(len, mantissas)) <= most, (form, max(map(len, mantissas)))
+        assert any("e+" in word for word in words) == (form == "%.3e")
+        (tmp_path / "out.obj").unlink()
+
+
+@pytest.mark.parametrize("order", ORDERS)
+def test_coordinates_behind_lists_of_different_lengths(tmp_path, order):
+    """Where such elements begin is known only from the one before."""
+    points, faces = sheet()
+    head = f"ply\nformat {order} 1.0\nelement vertex {len(points)}\nproperty list uchar short tags\n"
+    head += "property float x\nproperty float y\nproperty float z\nproperty uchar flag\n"
+    head += f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n"
+    sign, body = ("<" if "little" in order else ">"), b""
+    for number, point in enumerate(points.astype(np.float32)):
+        tags = list(range(number % 4))
+        if order == "ascii":
+            body += (" ".join(map(repr, [len(tags), *tags, *point.tolist(), 7])) + "\n").encode()
+        else:
+            body += struct.pack(f"{sign}B{len(tags)}h3fB", len(tags), *tags, *point, 7)
+    for face in faces.tolist():
+        body += (
+            f"3 {face[0]} {face[1]} {face[2]}\n".encode()
+            if order == "ascii"
+            else struct.pack(f"{sign}B3i", 3, *face)
+        )
+    (tmp_path / "a.ply").write_bytes(head.encode() + body)
+    file = open_file(tmp_path / "a.ply")
+    np.testing.assert_array_equal(file.positions, points.astype(np.float32))
+    moved = (points + 0.25).astype(np.float32)
+    (tmp_path / "b.ply").write_bytes(file.patched(moved))
+    after = open_file(tmp_path / "b.ply")
+    np.testing.assert_allclose(after.positions, moved, atol=1e-6)
+    np.testing.assert_array_equal(after.corner_vertex, faces.ravel())
+
+
+@pytest.mark.filterwarnings("error")
+def test_normals_between_faces_that_look_against_each_other_stay(tmp_path):
+    """Their mean has no direction."""
+    points, faces = sheet()
+    apart = np.array([[50.0, 0, 0], [51, 0, 0], [50, 1, 0]])
+    n = len(points)
+    all_points = np.concatenate((points, apart))
+    all_faces = np.concatenate((faces, [[n, n + 1, n + 2], [n, n + 2, n + 1]]))
+    normals = np.concatenate((normals_of(points, faces), [[0.6, 0, 0.8]] * 3))
+    (tmp_path / "a.ply").write_bytes(with_normals(all_points, all_faces, normals, "binary_little_endian"))
+    file = open_file(tmp_path / "a.ply")
+    (tmp_path / "b.ply").write_bytes(file.patched(file.positions + [[0, 0, 0.5]] * np.ones((n + 3, 1))))
+    rows = np.frombuffer(
+        (tmp_path / "b.ply").read_bytes().partition(b"end_header\n")[2], "<f4", 6 * (n + 3)
+    ).reshape(-1, 6)
+    np.testing.assert_allclose(rows[n:, [1, 3, 5]], [[0.6, 0, 0.8]] * 3, atol=1e-6)
+
+
+FACES = b"3 0 1 2\n3 0 2 1\n"
+EDGES = b"element edge 1\nproperty int from\nproperty int to\nend_header"
+STRIP = b"element tristrips 1\nproperty list uchar int vertex_indices\nend_header\n"
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "n_vertices", "n_faces"),
+    [
+        ("a.ply", CUT_TEXT.replace(b"end_header", EDGES) + FACES + b"0 1\n", 3, 2),
+        ("a.ply", CUT_TEXT.partition(b"element face")[0] + STRIP + b"0 0 0\n1 0 0\n0 1 0\n2 0 1\n", 3, 0),
+        ("a.ply", CUT_TEXT.partition(b"element face")[0] + STRIP + b"0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", 3, 1),
+        ("a.ply", CUT_BINARY.replace(b"face 2", b"face 0"), 3, 0),
+        ("a.ply", CUT_BINARY.replace(b"vertex 3", b"vertex 0").replace(b"face 2", b"face 0"), 0, 0),
+        ("a.obj", b"v 0 0 0 # first\nv 1_0 0 0\nv 0 1 0\nf 1/1 2/2 -1/3 # a triangle\n", 3, 1),
+        ("a.obj", b"o A\nv 0 0 0\nv 1 0 0\no B\nv 0 1 0\n", 3, 0),
+        ("a.obj", b"o A\nv 0 0 0\nv 1 0 0\nv 0 1 0\no B\nf 1 2 3\no C\nf 3 2 1\n", 3, 2),
+    ],
+)
+def test_files_that_are_odd_but_whole_are_read(tmp_path, name, content, n_vertices, n_faces):
+    (tmp_path / name).write_bytes(content)
+    file = open_file(tmp_path / name)
+    assert (len(file.positions), file.n_faces) == (n_vertices, n_faces)
+    assert file.patched(file.positions) == content
+    parts = file.parts()
+    assert sorted(np.concatenate([part.faces for part in parts]).tolist()) == list(range(n_faces))
+
+
+def test_a_face_of_vertex_0_is_told_and_left_out(command, tmp_path):
+    """Numbers of vertices begin at 1."""
+    content = full_obj() + b"f 0 1 2\n"
+    (tmp_path / "a.obj").write_bytes(content)
+    result = command("denoise", tmp_path / "a.obj", tmp_path / "b.obj", *POSITIONS)
+    assert result.code == 0 and "1 face names a vertex that does not exist" in result.err
+    assert open_file(tmp_path / "a.obj").warnings
+    assert (tmp_path / "b.obj").read_bytes().endswith(b"f 0 1 2\n")

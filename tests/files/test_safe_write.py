@@ -5,6 +5,7 @@
 
 import errno
 import os
+import signal
 import stat
 import subprocess
 import sys
@@ -145,6 +146,41 @@ def test_an_interrupt_between_two_files(tmp_path, monkeypatch):
         outputs.publish()
     assert caught.value.published == [first, second] and caught.value.exit_code == 130
     assert names(tmp_path) == ["a.ply", "b.json"]
+
+
+def test_a_signal_between_two_files(tmp_path, monkeypatch):
+    """Both are in place before it counts, and it is the code that shells know it by."""
+    replace = os.replace
+
+    def replace_and_end(source, target):
+        replace(source, target)
+        if str(target) == str(tmp_path / "a.ply"):
+            os.kill(os.getpid(), signal.SIGTERM)
+
+    monkeypatch.setattr(safe_write.os, "replace", replace_and_end)
+    with pytest.raises(Interrupted) as caught, Outputs() as outputs:
+        outputs.write(tmp_path / "a.ply", b"mesh")
+        outputs.write(tmp_path / "b.json", b"report")
+        outputs.publish()
+    assert caught.value.published == [tmp_path / "a.ply", tmp_path / "b.json"]
+    assert caught.value.exit_code == 128 + signal.SIGTERM and names(tmp_path) == ["a.ply", "b.json"]
+
+
+def test_a_backup_that_cannot_be_kept_stops_before_anything_is_replaced(tmp_path, monkeypatch):
+    def full(*_paths):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    (tmp_path / "a.ply").write_bytes(b"precious")
+    monkeypatch.setattr(safe_write.os, "link", full)
+    monkeypatch.setattr(safe_write.shutil, "copy2", full)
+    with (
+        pytest.raises(FileError, match=r"The backup .*a\.ply\.bak could not be written"),
+        Outputs() as outputs,
+    ):
+        outputs.write(tmp_path / "a.ply", b"new")
+        outputs.keep_backups()
+        outputs.publish()
+    assert (tmp_path / "a.ply").read_bytes() == b"precious" and names(tmp_path) == ["a.ply"]
 
 
 def test_leftovers_of_dead_runs_are_removed(tmp_path):

@@ -29,13 +29,26 @@ ROOMS = {
     ),
     "transform": (
         "core/transform/*.py",
-        ["test_transform", "test_levels", "test_adaptive", "test_every_frame"],
+        ["test_transform", "test_levels", "test_adaptive", "test_every_frame", "test_frame_choice"],
     ),
     "shrinkage": (
         "core/methods/{proximal,split_bregman}.py",
         ["test_shrinkage", "test_split_bregman", "test_library", "test_adaptive"],
     ),
-    "files": ("operators/files/*.py", ["files/test_formats", "files/test_safe_write", "files/test_digits"]),
+    "averages": ("core/averages/*.py", ["test_means", "region/test_lines"]),
+    "files": (
+        "operators/files/*.py",
+        [
+            "files/test_formats",
+            "files/test_safe_write",
+            "files/test_digits",
+            "files/test_hostile",
+            "files/test_defects",
+            "files/test_fuzz",
+            "files/test_less_memory",
+            "files/test_command_line",
+        ],
+    ),
 }
 COMPARED = {
     ast.Lt: ast.LtE,
@@ -61,6 +74,16 @@ SIGNS = {
 EXPLAINED = {
     "core/methods/split_bregman.py: steps.delta > 0  ->  steps.delta >= 0": "adds zeros, and takes memory",
     "core/stencils/grid.py: 20  ->  21": "how many vertices are worked on together",
+    "core/transform/make.py: index + 1  ->  index - 1": "prepares a level that does not come",
+    "core/transform/make.py: index + 1 < levels  ->  index + 1 <= levels": (
+        "prepares a level that does not come"
+    ),
+    "core/transform/frame_transform.py: index < len(self.levels)  ->  index <= len(self.levels)": (
+        "computes what nobody reads"
+    ),
+    "core/transform/frame_transform.py: length < 1e-12 * max(map(abs, diagonal))  ->  "
+    "length <= 1e-12 * max(map(abs, diagonal))": "no length is that to the bit",
+    "operators/files/ply.py: 10000  ->  10001": "how many triangles are looked at",
 }
 """Changes that do what the original does, by `path: before  ->  after`, and why; they are not tried."""
 
@@ -91,6 +114,11 @@ def changes(tree):
         if (outer := getattr(node, part, None)) is not None
         for inner in ast.walk(outer)
     }
+    negative = {
+        id(node.operand)
+        for node in ast.walk(tree)
+        if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub)
+    }
     for node in ast.walk(tree):
         if id(node) in typed:
             continue
@@ -102,7 +130,9 @@ def changes(tree):
             other = ast.Or if isinstance(node.op, ast.And) else ast.And
             yield node, lambda node=node, other=other: setattr(node, "op", other())
         elif isinstance(node, ast.Constant) and type(node.value) in (int, float):
-            yield node, lambda node=node: setattr(node, "value", node.value + 1)
+            # -1 becomes 0: NumPy takes -2 for -1 in shapes.
+            step = -1 if id(node) in negative else 1
+            yield node, lambda node=node, step=step: setattr(node, "value", node.value + step)
         elif isinstance(node, ast.If | ast.IfExp):
             yield (
                 node,

@@ -3,6 +3,7 @@
 """What the workflows ask the files of the project: Blender versions, and notes of a release."""
 
 import importlib.util
+import json
 from pathlib import Path
 
 import pytest
@@ -49,3 +50,48 @@ def test_notes_are_those_of_the_version():
 def test_a_release_that_is_not_ready_is_refused(tag, changelog, reason):
     with pytest.raises(ValueError, match=reason):
         load("release_notes").notes(tag, MANIFEST, changelog)
+
+
+@pytest.mark.parametrize(("covered", "code"), [(19, 0), (18, 1)])
+def test_too_few_branches_fail(tmp_path, capsys, covered, code):
+    # All lines, so that lines and branches together are above 95 % in both cases.
+    totals = {"num_statements": 80, "covered_lines": 80, "num_branches": 20, "covered_branches": covered}
+    report = tmp_path / "core.json"
+    report.write_text(json.dumps({"totals": totals}))
+    assert load("branches").main([str(report), "--fail-under", "95"]) == code
+    assert f"core: {100 * covered / 20} % of 20 branches" in capsys.readouterr().out
+
+
+def test_a_report_without_branches_fails(tmp_path, capsys):
+    report = tmp_path / "core.json"
+    report.write_text('{"totals": {"num_statements": 80, "covered_lines": 80}}')
+    assert load("branches").main([str(report), "--fail-under", "95"]) == 1
+    assert "branch = true" in capsys.readouterr().err
+
+
+def test_an_environment_is_made_again_when_packages_that_it_takes_in_change(tmp_path):
+    environment = load("environment")
+    folder = tmp_path / ".ci" / "requirements"
+    folder.mkdir(parents=True)
+    (folder / "core.txt").write_text("numpy==2.4.6\n")
+    (folder / "hunt.txt").write_text("# What measures.\n-r core.txt\ncoverage==7.17.5\n")
+    assert environment.with_included(folder / "hunt.txt") == [folder / "hunt.txt", folder / "core.txt"]
+    environment.ROOT, environment.VENVS = tmp_path, tmp_path / ".venv"
+    made = []
+    environment.find_python = lambda versions: "python3"
+
+    def makes(command, environment=None):
+        made.append(command[1:3])
+        python.parent.mkdir(parents=True, exist_ok=True)
+        python.touch()
+        return True
+
+    python = environment.interpreter(tmp_path / ".venv" / "hunt")
+    environment.succeeds = makes
+    environment.make_environment("hunt")
+    n_commands = len(made)
+    environment.make_environment("hunt")
+    assert len(made) == n_commands > 0
+    (folder / "core.txt").write_text("numpy==2.4.6\ndask==2026.8.0\n")
+    environment.make_environment("hunt")
+    assert len(made) == 2 * n_commands
