@@ -10,6 +10,7 @@ import meshes
 import numpy as np
 import pytest
 from blender_objects import noisy_monkey, read, select_only
+from drawing import draw
 from framelet.core import PRESETS, NoiseBelief, denoise, estimate_noise
 from framelet.core.mesh.geometry import mean_edge_length
 from framelet.operators import denoise_report
@@ -18,6 +19,7 @@ from framelet.operators.properties.scene_units import range_text
 from framelet.operators.reports.filled_reports import fill_report
 from framelet.operators.reports.report import BeliefMixin
 from framelet.operators.run.denoise_job import MeasuredReport
+from framelet.ui.panels import report_panels
 
 
 def last_report():
@@ -121,6 +123,7 @@ def measured(n_vertices, noise=BELIEF, strength=1.0, scale=1.0):
 def test_what_several_objects_had_of_noise_is_taken_together():
     still = replace(BELIEF, sigma=0.0, sigma_low=0.0, sigma_high=0.0, width=0.0, spikes=0.0, clean=1.0)
     strong = replace(BELIEF, sigma_low=0.03, sigma_high=0.08, width=3.0, spikes=0.0, clean=0.0)
+    strong = replace(strong, wide=0.5, along=0.07)
     report = last_report()
     fill_report(report, {"A": measured(100), "B": measured(200, still), "C": measured(100, strong, scale=5)})
     found = {name: getattr(report, name) for name in BeliefMixin.__annotations__}
@@ -136,12 +139,24 @@ def test_what_several_objects_had_of_noise_is_taken_together():
             "width": 3.0,
             "spikes": 0.25,
             "clean": 57.5,
+            "wide": 12.5,
+            "along_edges": 0.07,
         }
     )
     fill_report(report, {"B": measured(200, still)})
     assert report.is_clean and report.clean == 100 and report.sigma_high == report.width == 0
     fill_report(report, {"B": measured(200, still, strength=0.0)})
     assert report.is_off and not report.is_clean
+
+
+def test_last_run_says_what_was_wide_and_along_the_surface(make_object, rng):
+    make_object(meshes.noisy(meshes.quad_torus(30, 60), rng, 0.15), "Torus")
+    bpy.ops.object.framelet_denoise()
+    shown = draw(report_panels.VIEW3D_PT_framelet_last_run)["label"]
+    assert "Along Surface" in shown and "Wide" not in shown
+    assert f"{last_report().along_edges:.2g} edges" in shown
+    bpy.ops.object.framelet_denoise(noise="WIDE", from_original=True)
+    assert "Wide" in draw(report_panels.VIEW3D_PT_framelet_last_run)["label"]
 
 
 def test_a_run_without_noise_shows_none_of_an_earlier_one():

@@ -14,6 +14,7 @@ from framelet.core.noise import TERRACES, VOXELS, find_steps
 from framelet.operators.mesh_io.mesh_bridge import read_positions, read_surface
 from framelet.ui.panels import report_panels
 from framelet.ui.panels.layouts import draw_text
+from known_shapes import lifted, wide
 
 SIDE = 24
 CASES = Path(__file__).resolve().parents[3] / "shared" / "cases"
@@ -118,6 +119,17 @@ def test_the_preset_for_terraces_takes_them_away(make_object, capfd):
     bpy.ops.object.framelet_denoise(preset="TRI_2")
     assert np.abs(read_positions(obj.data) - flat).max() > 0.1
     assert "whole steps" not in capfd.readouterr().out
+
+
+def test_noise_that_looks_like_relief_is_named(make_object, capfd, rng):
+    clean = meshes.quad_torus(40, 60)
+    make_object(lifted(clean, 0.3 * wide(clean, rng, 12)), "Wavy")
+    words = "if what is left is noise, it is several edges wide: set Noise to Wide"
+    bpy.ops.object.framelet_denoise()
+    assert f"clean already; {words}" in capfd.readouterr().out
+    assert words[1:] in " ".join(labels())
+    bpy.ops.object.framelet_denoise(noise="WIDE", from_original=True)
+    assert words not in capfd.readouterr().out and bpy.context.window_manager.framelet_report.n_moved
 
 
 def test_a_scale_and_a_cage_are_in_last_run_too(make_object, rng):
