@@ -22,7 +22,7 @@ BOUNDS = {
     "quad torus": (1.0, 2.1, 2.4),
     "hexagon torus": (1.0, 2.2, 3.6),
 }
-"""A third above what was measured; see `docs/benchmarks_quality.md` for figures of real meshes."""
+"""A third above what was measured; see `docs/science/benchmarks.md` for figures of real meshes."""
 
 
 pytestmark = pytest.mark.usefixtures("one_thread")
@@ -40,10 +40,9 @@ def test_noise_is_taken_away(name, sigma, which, rng):
     before, after = compare(mesh, clean), compare(cleaned(mesh), clean)
     assert after.mean_angle < BOUNDS[name][which]
     assert after.mean_angle < 0.5 * before.mean_angle
-    # The vertices of hexagons come together at 0.04 edges, whatever the noise.
-    assert (
-        after.rms_distance < (1.0 if name == "hexagon torus" and sigma < 0.1 else 0.7) * before.rms_distance
-    )
+    # Hexagons come together at 0.04 edges whatever the noise; faint noise is near what shape is.
+    most = 0.7 if sigma > 0.1 else 1.0 if name == "hexagon torus" else 0.8
+    assert after.rms_distance < most * before.rms_distance
 
 
 @pytest.mark.parametrize("name", ["sphere", "part", "quad torus"])

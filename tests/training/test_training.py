@@ -11,6 +11,7 @@ torch = pytest.importorskip("torch", reason="PyTorch is in the environment for t
 
 from core.learned.net import Net as NumpyNet  # noqa: E402
 from training import noise  # noqa: E402
+from training.mean import mean_of_runs  # noqa: E402
 from training.net import Net  # noqa: E402
 from training.sample_mesh import SampleMesh  # noqa: E402
 from training.shapes.catalog import family_of, make  # noqa: E402
@@ -116,3 +117,19 @@ def test_a_run_learns_and_goes_on_where_it_was_cut_off(shapes, meshes, net, tmp_
     with torch.no_grad():
         losses = [np.mean([both_passes(own, draw, (1, 1)) for draw in draws]) for own in (net, trained)]
     assert losses[1] < losses[0] - 0.2
+
+
+def test_the_mean_of_two_runs(shapes, meshes, tmp_path):
+    runs = [tmp_path / "one", tmp_path / "other"]
+    for seed, run in enumerate(runs):
+        train("fine", shapes, run / "fine", 2, seed, run / "fine.npz", provenance={"seed": str(seed)})
+    mean_of_runs("fine", runs, tmp_path / "mean.npz", tmp_path / "mean.pt")
+    one, other, mean = (
+        dict(np.load(path)) for path in (*(run / "fine.npz" for run in runs), tmp_path / "mean.npz")
+    )
+    assert str(mean["seed"]) == "mean of 0 and 1"
+    assert not np.array_equal(one["begin.weight"], other["begin.weight"])
+    assert mean["begin.weight"] == pytest.approx((one["begin.weight"] + other["begin.weight"]) / 2, abs=1e-6)
+    further = tmp_path / "further.npz"
+    train("fine", shapes, tmp_path / "further", 1, 1, further, warm_start=tmp_path / "mean.pt")
+    assert NumpyNet(dict(np.load(further))).repeats == mean["repeats"].tolist()
