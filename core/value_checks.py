@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Iterable
-from numbers import Integral, Real
+from numbers import Integral, Rational, Real
 from typing import Any
 
 from .errors import FrameletError, SettingError
@@ -72,7 +72,8 @@ def check_number(
     is_number = isinstance(value, Integral if is_whole else Real)
     if not is_number or type(value) is bool:
         raise SettingError(f"{name} is {shown(value)}; it must be a {'whole ' if is_whole else ''}number.")
-    is_finite = is_whole or value <= sys.float_info.max  # also of whole numbers that are no float
+    # Whole numbers and fractions may be larger than any float.
+    is_finite = is_whole or not isinstance(value, Rational) or value <= sys.float_info.max
     if minimum <= value <= maximum and value != math.inf and is_finite:  # also refuses NaN
         return
     number = "a huge number" if isinstance(value, int) and abs(value) > sys.float_info.max else f"{value:g}"

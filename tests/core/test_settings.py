@@ -61,6 +61,7 @@ def test_whole_numbers_must_be_whole(name, value):
         made(name, value)
 
 
+@pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize("name", NUMBERS)
 def test_numpy_numbers_are_allowed(name):
     value = INFO[name].maximum
