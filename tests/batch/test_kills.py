@@ -15,7 +15,7 @@ from framelet.operators.command_line import main
 
 from .conftest import obj, rows_of, run, start, state_of
 
-KILLS = int(os.environ.get("FRAMELET_KILLS", "12"))
+KILLS = int(os.environ.get("FRAMELET_KILLS", "20"))
 
 pytestmark = pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="this system has no SIGKILL")
 
