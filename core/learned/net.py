@@ -37,8 +37,8 @@ N_LAYERS = 8
 CLIP = np.float32(6)
 """Standardized inputs are cut off here: far out the net has seen nothing."""
 
-LEAST_AREA = np.float32(1e-4)
-"""Least area of a face, in squares of the local unit, so that weights stay finite."""
+LEAST_AREA, MOST_AREA = np.float32(1e-4), np.float32(1e15)
+"""Least and largest area of a face, in squares of the local unit, so that weights stay finite."""
 
 WEIGHTS = {width: Path(__file__).with_name(f"{width}.npz") for width in ("fine", "wide")}
 """The arrays that come with Framelet: for noise from vertex to vertex, and for noise that neighbors share."""
@@ -117,7 +117,7 @@ def load_net(width: str) -> Net:
 
 def pair_weights(scales: Scales, graph: FaceGraph) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
     """Return c_e of the pairs, shape (P + 1,), and 1 / area of the faces, shape (F,), in local units."""
-    areas = np.maximum(scales.areas[:, 0] / (scales.length * scales.length), LEAST_AREA)
+    areas = np.clip(scales.areas[:, 0] / (scales.length * scales.length), LEAST_AREA, MOST_AREA)
     one, two = areas.take(graph.first), areas.take(graph.second)
     weight = one * two
     weight *= np.float32(2)

@@ -52,7 +52,10 @@ class Grid:
 
     def target(self, steps: Steps) -> NDArray[np.int64]:
         """Return the vertices that steps lead to, -1 for no step."""
-        return np.where(steps >= 0, self._connectivity.ring[steps], -1)
+        ring = self._connectivity.ring
+        if not len(ring):  # a face of one vertex alone
+            return np.full(np.shape(steps), -1)
+        return np.where(steps >= 0, ring[steps], -1)
 
     def march(self, steps: Steps, count: int) -> Steps:
         """Go straight on `count` times, in as many table look-ups as the count has binary digits."""

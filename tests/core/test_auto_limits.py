@@ -11,7 +11,7 @@ from framelet.core import PRESETS, SurfaceMesh, denoise
 from framelet.core.blocks import BLOCK_SIZE
 from framelet.core.memory import estimated_bytes
 from mesh_files import mesh_files, read_mesh
-from meshes import MESHES, bow_tie, clean_soup, faces_of, noisy, pyramid, quad_torus, soup, union
+from meshes import MESHES, bow_tie, clean_soup, faces_of, noisy, pyramid, quad_grid, quad_torus, soup, union
 
 AUTO = PRESETS["AUTO"].settings
 pytestmark = pytest.mark.filterwarnings("error")
@@ -197,3 +197,10 @@ def test_a_shake_that_is_as_good_as_none_changes_nothing(seed, shared_meshes):
     change = denoise(other, settings).vertices.astype(float) - other.vertices - moved
     assert np.abs(change).max() < 0.02 * edge
     assert np.sqrt((moved**2).sum(axis=1).mean()) < 0.01 * edge
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_sheet_that_is_stretched_beyond_measure():
+    """Areas of its faces are huge beside the squares of local lengths."""
+    mesh = quad_grid(5, 6)
+    assert np.isfinite(denoise(mesh.with_vertices(mesh.vertices * [1e-9, 1e9, 1]), AUTO).vertices).all()

@@ -4,6 +4,7 @@
 
 import numpy as np
 import pytest
+from checks import wild_mesh
 from framelet.core import BANKS, FilterBank, connect, make_stencil
 from meshes import MESHES, flipped, noisy, quad_grid, triangle_grid, triangle_torus, turned_over, union
 from stars import star
@@ -183,3 +184,9 @@ def test_walked_stencils_do_not_depend_on_numbers_at_non_manifold_vertices(rng):
     assert len(broken)
     one, two = (stencil_of(m, FIVE, boundary="FREE").data_matrix(m.vertices) for m in (mesh, reversed_))
     assert np.allclose(one[:, broken], two[:, broken], rtol=0, atol=EXACT)
+
+
+def test_a_face_of_one_vertex_alone():
+    """It has no ring to walk along; each tap looks up the vertex itself."""
+    mesh = wild_mesh([(1.0, 2.0, 3.0)], [(0, 0, 0, 0)])
+    assert np.allclose(stencil_of(mesh, FIVE).data_matrix(mesh.vertices), mesh.vertices[0])
