@@ -82,8 +82,8 @@ class NoiseBelief(NoiseEstimate):
 
     @property
     def is_doubtful(self) -> bool:
-        """Whether what looks clean may be noise that is several edges wide: relief looks alike."""
-        return self.is_clean and self.shared > 0.5
+        """Whether what looks clean, and is no step, may be noise several edges wide: relief looks alike."""
+        return self.is_clean and self.shared > 0.5 and not self.steps
 
 
 def noise_field(surface: SurfaceMesh, vertices: NDArray[np.floating]) -> NoiseField:

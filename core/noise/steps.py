@@ -22,7 +22,6 @@ AT_STEPS = 0.3
 """Share of the vertices that lie where faces of different axes meet, from which a shape is made of voxels; on
 a finely divided box it is less."""
 
-
 FLAT = 0.1
 """Least share of the surface that is flat on terraces, at several heights."""
 

@@ -229,7 +229,7 @@ def _describe_belief(report: DenoiseReport, noise: NoiseBelief) -> str:
         return "strength is 0, so that nothing moves"
     hint = HINTS.get(noise.steps, "")
     if noise.is_clean:
-        if noise.is_doubtful and not hint:
+        if noise.is_doubtful:
             hint = "; if what is left is noise, it is several edges wide: try --noise wide"
         return "clean already" + hint
     edge = report.mean_edge_length

@@ -46,6 +46,6 @@ def hints(obj: bpy.types.Object, noise: NoiseEstimate | None = None) -> list[str
         found.append(rpt_("it is made of voxels: the preset Marching Cubes / CT rounds the steps"))
     if noise.steps == TERRACES:
         found.append(rpt_("its heights are in whole steps: the preset Paper Tri-2 takes them away"))
-    if noise.is_doubtful and not noise.steps:
+    if noise.is_doubtful:
         found.append(rpt_("if what is left is noise, it is several edges wide: set Noise to Wide"))
     return found
