@@ -13,6 +13,19 @@ N = 12
 """Vertices on each side of the sheet."""
 
 
+POSITIONS = ("--preset", "tri-2")
+ORDERS = ("ascii", "binary_little_endian", "binary_big_endian")
+
+
+def denoised(command, source, target, *options):
+    """Denoise a file, and return both contents."""
+    before = source.read_bytes()
+    result = command("denoise", source, target, *POSITIONS, *options)
+    assert result.code == 0, result.err
+    assert source.read_bytes() == before
+    return before, target.read_bytes()
+
+
 def sheet(seed=1, n=N):
     """Return noisy positions, shape (n * n, 3), and triangles of a sheet."""
     x, y = np.meshgrid(np.arange(n), np.arange(n), indexing="ij")
