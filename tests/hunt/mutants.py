@@ -40,6 +40,11 @@ ROOMS = {
         "operators/files/*.py",
         [
             "files/test_formats",
+            "files/test_ply",
+            "files/test_obj",
+            "files/test_stl",
+            "files/test_gltf",
+            "files/test_damaged_files",
             "files/test_safe_write",
             "files/test_digits",
             "files/test_hostile",
