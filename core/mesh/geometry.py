@@ -15,6 +15,9 @@ from ..blocks import Blocks
 from .ragged import stretches
 from .surface_mesh import SurfaceMesh
 
+CANCELED = 1e-12
+"""What is left of a sum, as a share of the lengths of its vectors, where only rounding kept it from zero."""
+
 
 def coordinate_rows(
     vertices: NDArray[np.floating], blocks: Blocks | None = None, dtype: DTypeLike = np.float64
@@ -178,14 +181,19 @@ def face_normals(surface: SurfaceMesh) -> NDArray[np.float64]:
 def vertex_normals(surface: SurfaceMesh) -> NDArray[np.float64]:
     """Return unit vertex normals, shape (N, 3), float64: area-weighted means of the faces around a vertex.
 
-    Zero at loose vertices and where the faces cancel out.
+    Zero at loose vertices and where the faces cancel out, be it but for rounding.
     """
-    per_corner = np.repeat(face_area_vectors(surface), surface.face_sizes(), axis=0)
-    sums = [
-        np.bincount(surface.corner_vertex, per_corner[:, axis], minlength=surface.n_vertices)
-        for axis in range(3)
-    ]
-    return unit_vectors(np.stack(sums, axis=1).astype(np.float64, copy=False))
+    areas = face_area_vectors(surface)
+    areas = np.column_stack((areas, np.linalg.norm(areas, axis=1)))
+    per_corner = np.repeat(areas, surface.face_sizes(), axis=0)
+    sums = np.empty((surface.n_vertices, 4))
+    for column in range(4):
+        sums[:, column] = np.bincount(
+            surface.corner_vertex, per_corner[:, column], minlength=surface.n_vertices
+        )
+    vectors, total = sums[:, :3], sums[:, 3]
+    vectors[np.linalg.norm(vectors, axis=1) <= CANCELED * total] = 0.0
+    return unit_vectors(vectors)
 
 
 def face_tips(

@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 from checks import lengths, random_rotation
-from framelet.core import DenoiseSettings, FrameletError, denoise
+from framelet.core import DenoiseSettings, FrameletError, SurfaceMesh, denoise
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from stars import relabeled
@@ -17,10 +17,11 @@ from .profile import examples
 ROUNDING = 1e-6
 """Mean edge lengths by which results may differ in double precision."""
 
-SINGLE = 0.1
-"""The same for learned shrinkage, whose kernels work in single precision: on strips and small islands
-averages shrink the surface to nearly nothing, which amplifies rounding. Of the medians of 540 meshes the
-worst was 0.049, 1 % were above 0.012 and half above 3e-8; from 30 faces on the worst was 0.0015."""
+SINGLE, FEW = 0.01, 0.5
+"""Medians for learned shrinkage, whose kernels work in single precision, and for it on less than 30 faces:
+on strips and small islands averages shrink the surface to nearly nothing, which amplifies rounding. Of the
+medians of 540 meshes half were above 3e-8, and the worst was 0.0015 from 30 faces on; of 100 patches of 22
+faces, each with noise of its own, the worst was 0.14 after three passes."""
 
 
 def moved_mesh(change, mesh, rng):
@@ -64,9 +65,20 @@ def test_a_changed_mesh_has_the_changed_result(mesh, settings, change, seed):
     apart = lengths(found - expected)
     if settings.method == "AUTO":
         # Folds are taken back vertex by vertex, and by rounding one may fold in one of the two only.
-        assert np.median(apart) <= SINGLE * edge
+        assert np.median(apart) <= (SINGLE if mesh.n_faces >= 30 else FEW) * edge
     else:
         assert apart.max() <= ROUNDING * edge
+
+
+def test_normals_of_faces_that_cancel_out_are_zero():
+    """A face and its copy, turned over, left a normal of rounding, and the bilateral filter followed it."""
+    mesh = SHAPES["strip"](np.random.default_rng(0))
+    faces = [mesh.corner_vertex[a:b].tolist() for a, b in pairwise(mesh.face_offset)]
+    mesh = SurfaceMesh.from_faces(mesh.vertices, [*faces, *(face[::-1] for face in faces)])
+    settings = DenoiseSettings(method="BILATERAL", strength=10.0, iterations=1, sigma_c=1.5, threads=1)
+    for seed in range(6):
+        other, _ = moved_mesh("turned", mesh, np.random.default_rng(seed))
+        np.testing.assert_array_equal(denoise(other, settings).vertices, other.vertices)
 
 
 def test_faces_in_one_place_lie_in_no_direction_from_each_other():
