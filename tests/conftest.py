@@ -5,6 +5,7 @@
 
 import importlib.util
 import os
+import signal
 import sys
 import zlib
 from pathlib import Path
@@ -28,6 +29,9 @@ def load_package() -> None:
     sys.modules["framelet"] = package
     spec.loader.exec_module(package)
 
+
+# A shell starts what runs in its background deaf to Ctrl-C, and processes that tests start would inherit it.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 # Before the test modules are imported, since they import from `framelet`.
 load_package()
