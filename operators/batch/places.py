@@ -6,6 +6,8 @@ from __future__ import annotations
 
 import os
 import re
+import sys
+import unicodedata
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -123,4 +125,6 @@ def check_collisions(tasks: Iterable[Task]) -> None:
 
 def _same(path: str) -> str:
     """Return what is the same for all names of a file."""
-    return os.path.normcase(os.path.realpath(path))
+    place = os.path.normcase(os.path.realpath(path))
+    # Disks of a Mac take letters for the same, capital or not, and however their accents are stored.
+    return unicodedata.normalize("NFC", place).casefold() if sys.platform == "darwin" else place

@@ -3,6 +3,7 @@
 """Manifests whose rows say what cannot be: a sentence for the row, and the other rows are worked on."""
 
 import json
+import sys
 
 import pytest
 from framelet.operators.command_line import main
@@ -89,6 +90,24 @@ def test_rows_that_get_in_each_others_way_stop_all(folder, capsys, rows, message
     assert run(folder, "a.jsonl", "--allow-outside") == 2
     assert message in capsys.readouterr().err
     assert {path: path.read_bytes() for path in folder.iterdir()} == before
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "systems"),
+    [
+        ("x.obj", "x.obj", ("linux", "darwin")),
+        ("x.obj", "X.OBJ", ("darwin",)),
+        ("\u00e1.obj", "a\u0301.obj", ("darwin",)),
+        ("x.obj", "y.obj", ()),
+    ],
+)
+@pytest.mark.parametrize("system", ["linux", "darwin"])
+def test_names_that_a_disk_takes_for_one(folder, capsys, monkeypatch, system, first, second, systems):
+    rows = [{"input": "a.obj", "output": first}, {"input": "b.obj", "output": second}]
+    (folder / "a.jsonl").write_text("\n".join(map(json.dumps, rows)))
+    monkeypatch.setattr(sys, "platform", system)
+    assert run(folder, "a.jsonl") == (2 if system in systems else 0)
+    assert ("would both be written" in capsys.readouterr().err) == (system in systems)
 
 
 def test_two_columns_of_one_name_are_refused(folder, capsys):
