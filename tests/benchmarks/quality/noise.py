@@ -83,6 +83,31 @@ def along_view(surface: SurfaceMesh, seed: int, sigma: float) -> np.ndarray:
     return (surface.vertices + length[:, None] * view).astype(surface.vertices.dtype)
 
 
+def mixed(surface: SurfaceMesh, seed: int, white: float, n_averages: int, wide: float) -> np.ndarray:
+    """Return positions (N, 3) after white noise along the normals and noise that is averaged n times."""
+    both = along_normals(surface, seed, white) - surface.vertices
+    return both + correlated(surface, seed + 1000, n_averages, wide)
+
+
+def spiky(surface: SurfaceMesh, seed: int, share: float, sigma: float) -> np.ndarray:
+    """Return positions (N, 3) after white noise, and spikes of 2 to 12 edges at a share of the vertices."""
+    rng = np.random.default_rng(seed)
+    heights = rng.uniform(2.0, 12.0, surface.n_vertices) * rng.choice([-1.0, 1.0], surface.n_vertices)
+    heights *= rng.random(surface.n_vertices) < share
+    heights += rng.normal(0.0, sigma, surface.n_vertices)
+    heights *= mean_edge_length(surface)
+    return (surface.vertices + heights[:, None] * vertex_normals(surface)).astype(surface.vertices.dtype)
+
+
+def quantized(surface: SurfaceMesh, seed: int, step: float, n_axes: int) -> np.ndarray:
+    """Return positions (N, 3) in whole steps along one axis, turned anyhow, or along all three."""
+    rng = np.random.default_rng(seed)
+    axes = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+    steps = surface.vertices @ axes / (step * mean_edge_length(surface)) + rng.random(3)
+    error = (np.round(steps) - steps) * (np.arange(3) < n_axes) * (step * mean_edge_length(surface))
+    return (surface.vertices + error @ axes.T).astype(surface.vertices.dtype)
+
+
 NOISES: Mapping[str, Callable[[SurfaceMesh, int], np.ndarray]] = {
     "normal 0.1": partial(along_normals, sigma=0.1),
     "normal 0.2": partial(along_normals, sigma=0.2),
@@ -94,9 +119,14 @@ NOISES: Mapping[str, Callable[[SurfaceMesh, int], np.ndarray]] = {
     "correlated 1": partial(correlated, n_averages=1),
     "correlated 2": partial(correlated, n_averages=2),
     "correlated 4": partial(correlated, n_averages=4),
+    "correlated 8": partial(correlated, n_averages=8),
+    "mixed 0.1 0.15": partial(mixed, white=0.1, n_averages=4, wide=0.15),
     "uneven 0.05 0.25": partial(uneven, weak=0.05, strong=0.25),
     "sparse 0.6": partial(sparse, share=0.2, sigma=0.6),
     "view 0.15": partial(along_view, sigma=0.15),
+    "spikes 1 %": partial(spiky, share=0.01, sigma=0.1),
+    "terraces 0.8": partial(quantized, step=0.8, n_axes=1),
+    "pixels 0.5": partial(quantized, step=0.5, n_axes=3),
 }
 """Functions that take a clean surface and a seed, by name and standard deviation."""
 

@@ -28,32 +28,44 @@ def test_noise_has_its_size_and_its_seed(noise):
     assert not np.array_equal(moved, NOISES[noise](clean, 4))
     offset = (moved - clean.vertices) / mean_edge_length(clean)
     size = np.linalg.norm(offset, axis=1)
-    kind, *sigmas = noise.split()
+    kind, *numbers = noise.split()
     is_moved = size > 0
     along = np.abs((offset * vertex_normals(clean)).sum(axis=1)[is_moved]) / size[is_moved]
     if kind == "direction":
         assert abs(along.mean() - 0.5) < 0.05  # of directions uniform on the sphere
-    elif kind == "view":
+    elif kind in ("view", "terraces"):
         assert np.ptp(np.abs(offset / size[:, None]), axis=0).max() < 1e-6
+    elif kind == "pixels":
+        assert size.max() <= np.sqrt(3) / 2 * float(numbers[0]) + 1e-9
     else:
         assert along.min() > 1 - 1e-6
+    if kind == "spikes":
+        is_far = size > 1
+        assert 0 < is_far.mean() < 0.03 and size[is_far].min() > 1.5 and size.max() < 12.5
+        is_moved = ~is_far
     parts = {"uneven": [~half_of(clean), half_of(clean)]}.get(kind, [is_moved])
-    if kind == "correlated":
-        sigmas = [0.2]
+    sigmas = {
+        "correlated": [0.2],
+        "mixed": [np.hypot(*map(float, numbers[:2]))] if kind == "mixed" else [],
+        "spikes": [0.1],
+        # Rounding is as likely to miss by anything up to half a step.
+        "terraces": [float(numbers[0]) / np.sqrt(12)],
+        "pixels": [float(numbers[0]) / 2],
+    }.get(kind, numbers)
     for part, sigma in zip(parts, sigmas, strict=True):
         rms = np.sqrt((size[part] ** 2).mean()) / float(sigma)
         assert 1.0 < rms < 2.0 if kind == "view" else abs(rms - 1) < 0.08
-    share = {"impulsive": 0.5, "sparse": 0.2}.get(kind, 1.0)
-    assert abs(is_moved.mean() - share) < (0.04 if kind == "sparse" else 0.001)
+    share = {"impulsive": 0.5, "sparse": 0.2, "spikes": 0.99}.get(kind, 1.0)
+    assert abs(is_moved.mean() - share) < (0.04 if kind in ("sparse", "spikes") else 0.001)
 
 
-@pytest.mark.parametrize("n_averages", [1, 2, 4])
+@pytest.mark.parametrize("n_averages", [1, 2, 4, 8])
 def test_correlated_noise_is_alike_at_neighbors(n_averages):
     clean = rounded_cube(16)
     heights = ((correlated(clean, 0, n_averages) - clean.vertices) * vertex_normals(clean)).sum(axis=1)
     one, other = clean.edges.T
     alike = np.corrcoef(heights[one], heights[other])[0, 1]
-    assert alike > {1: 0.25, 2: 0.45, 4: 0.6}[n_averages]
+    assert alike > {1: 0.25, 2: 0.45, 4: 0.6, 8: 0.7}[n_averages]
 
 
 def test_noise_along_normals_is_that_of_the_core():
