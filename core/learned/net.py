@@ -21,11 +21,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..scratch import Scratch
 from .face_graph import FACES_AT_ONCE, FaceGraph, Polygons
 from .features import FLOOR, N_CONTEXT, Features
 from .rows import Bias, Matrix, product, tiled, times
 from .scales import N_SCALES, Scales
-from .scratch import Scratch
 
 HIDDEN = 16
 """Scalars of a face, and of a pair."""

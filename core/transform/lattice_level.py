@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Sequence
 
 import numpy as np
@@ -14,6 +13,7 @@ from ..blocks import Blocks
 from ..errors import FrameError
 from ..frames import FilterBank
 from ..frames.mask_product import apply_matrix, hadamard_bands, is_hadamard
+from ..scratch import Scratch
 from ..stencils import Stencil
 from .level import Bands, Points, Sites, Visit
 
@@ -24,13 +24,6 @@ TAPS_PER_BLOCK = 2**18
 def _block_size(n_taps: int) -> int:
     """Return the number of sites in a block, a power of two."""
     return 2 ** max(10, (TAPS_PER_BLOCK // n_taps).bit_length() - 1)
-
-
-class _Scratch(threading.local):
-    """Arrays that are used again at the next call, for each calling thread its own."""
-
-    points: NDArray[np.floating] | None = None
-    detail: NDArray[np.floating] | None = None
 
 
 class LatticeLevel:
@@ -80,7 +73,7 @@ class LatticeLevel:
         self.n_high = len(self._masks) - 1
         self.chunk_bands = [self.n_high] * len(self.sites)
         self._dtype = np.dtype(dtype)
-        self._scratch = _Scratch()
+        self._scratch = Scratch(dtype)
         self.is_tight = (
             stencil.is_vertex_centered
             and bank.is_tight
@@ -103,9 +96,7 @@ class LatticeLevel:
     ) -> tuple[Points, NDArray[np.floating]]:
         """Analyze a surface and begin to rebuild it; see `Level`."""
         stencil, scratch = self.stencil, self._scratch
-        points = scratch.points
-        if points is None:
-            points = scratch.points = np.empty((3, stencil.n_points), self._dtype)
+        points = scratch("points", 3, stencil.n_points)
 
         def copy(start: int, stop: int) -> None:
             points[:, start:stop] = low[:, start:stop]
@@ -115,17 +106,17 @@ class LatticeLevel:
         # Averages over sites need a low-pass where a vertex is in none.
         needs_low = needs_low or self._incidence is not None
         site_low = np.empty((3, stencil.n_sites), points.dtype) if needs_low else None
-        detail = scratch.detail  # sums of the high bands
-        if detail is None:
-            detail = scratch.detail = np.empty((len(self._rows), 3, stencil.n_sites), self._dtype)
+        detail = scratch("detail", len(self._rows), 3, stencil.n_sites)  # sums of the high bands
 
         def kernel(start: int, stop: int) -> None:
             own_low = None if site_low is None else site_low[:, start:stop]
             if self._is_hadamard:
-                rings = stencil.gather_rings(points, start, stop)
+                rings = scratch("rings", 3, stencil.n_taps - 1, stop - start)
+                stencil.gather_rings(points, start, stop, rings)
                 high = hadamard_bands(points[:, start:stop], rings, own_low)
             else:
-                coefficients = apply_matrix(self._typed_masks, stencil.gather(points, start, stop))
+                data = stencil.gather(points, start, stop, scratch("data", 3, stencil.n_taps, stop - start))
+                coefficients = apply_matrix(self._typed_masks, data)
                 if own_low is not None:
                     own_low[:] = coefficients[:, 0]
                 high = coefficients[:, 1:]
