@@ -52,6 +52,21 @@ def correlated(surface: SurfaceMesh, seed: int, n_averages: int, sigma: float = 
     return (surface.vertices + heights[:, None] * vertex_normals(surface)).astype(surface.vertices.dtype)
 
 
+def local_edge(surface: SurfaceMesh) -> np.ndarray:
+    """Return the mean length of the edges at each vertex, shape (N,); the mean edge length without any."""
+    steps = surface.vertices[surface.edges[:, 0]] - surface.vertices[surface.edges[:, 1]]
+    length = np.repeat(np.linalg.norm(steps, axis=1), 2)
+    total = np.bincount(surface.edges.ravel(), length, surface.n_vertices)
+    valence = np.bincount(surface.edges.ravel(), minlength=surface.n_vertices)
+    return np.where(valence, total / np.maximum(valence, 1), mean_edge_length(surface))
+
+
+def in_local_edges(surface: SurfaceMesh, seed: int, sigma: float) -> np.ndarray:
+    """Return positions (N, 3) after noise along the normals that is as strong as the edges there are long."""
+    heights = np.random.default_rng(seed).normal(0.0, sigma, surface.n_vertices) * local_edge(surface)
+    return (surface.vertices + heights[:, None] * vertex_normals(surface)).astype(surface.vertices.dtype)
+
+
 def half_of(surface: SurfaceMesh) -> np.ndarray:
     """Return which vertices lie beyond the middle of the longest side, shape (N,), bool."""
     axis = np.argmax(np.ptp(surface.vertices, axis=0))
@@ -122,6 +137,7 @@ NOISES: Mapping[str, Callable[[SurfaceMesh, int], np.ndarray]] = {
     "correlated 8": partial(correlated, n_averages=8),
     "mixed 0.1 0.15": partial(mixed, white=0.1, n_averages=4, wide=0.15),
     "uneven 0.05 0.25": partial(uneven, weak=0.05, strong=0.25),
+    "local 0.2": partial(in_local_edges, sigma=0.2),
     "sparse 0.6": partial(sparse, share=0.2, sigma=0.6),
     "view 0.15": partial(along_view, sigma=0.15),
     "spikes 1 %": partial(spiky, share=0.01, sigma=0.1),

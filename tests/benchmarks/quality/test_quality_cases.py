@@ -16,7 +16,7 @@ FOLDER = Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER))
 
 from cases import CaseName, load_case  # noqa: E402
-from noise import NOISES, correlated, half_of  # noqa: E402
+from noise import NOISES, correlated, half_of, local_edge  # noqa: E402
 from shapes import MADE, QUICK, gear, rounded_cube  # noqa: E402
 
 
@@ -27,6 +27,8 @@ def test_noise_has_its_size_and_its_seed(noise):
     assert np.array_equal(moved, NOISES[noise](clean, 3))
     assert not np.array_equal(moved, NOISES[noise](clean, 4))
     offset = (moved - clean.vertices) / mean_edge_length(clean)
+    if noise.startswith("local"):
+        offset = (moved - clean.vertices) / local_edge(clean)[:, None]
     size = np.linalg.norm(offset, axis=1)
     kind, *numbers = noise.split()
     is_moved = size > 0
@@ -66,6 +68,17 @@ def test_correlated_noise_is_alike_at_neighbors(n_averages):
     one, other = clean.edges.T
     alike = np.corrcoef(heights[one], heights[other])[0, 1]
     assert alike > {1: 0.25, 2: 0.45, 4: 0.6, 8: 0.7}[n_averages]
+
+
+def test_local_edges_are_those_at_a_vertex():
+    clean = gear()
+    expected = [
+        np.mean(
+            [np.linalg.norm(np.diff(clean.vertices[edge], axis=0)) for edge in clean.edges if vertex in edge]
+        )
+        for vertex in (0, 5, 77)
+    ]
+    np.testing.assert_allclose(local_edge(clean)[[0, 5, 77]], expected)
 
 
 def test_noise_along_normals_is_that_of_the_core():
