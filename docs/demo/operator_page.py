@@ -36,14 +36,15 @@ def page() -> str:
     from framelet.operators.registration import classes
 
     parts = [INTRODUCTION]
+    described: dict[tuple[str, str], str] = {}
     for each in classes:
         if issubclass(each, bpy.types.Operator) and "INTERNAL" not in each.bl_options:
-            parts.append(section(each.bl_idname))
+            parts.append(section(each.bl_idname, described))
     return "\n".join(parts)
 
 
-def section(idname: str) -> str:
-    """Return what the page says of one operator."""
+def section(idname: str, described: dict[tuple[str, str], str]) -> str:
+    """Return what the page says of one operator; what it said before, it says once."""
     import bpy
 
     group, _, name = idname.partition(".")
@@ -60,15 +61,23 @@ def section(idname: str) -> str:
     ]
     if properties:
         lines += ["| Argument | Default | Values | What it is |", "|---|---|---|---|"]
-        lines += [_row(prop) for prop in properties]
+        lines += [_row(prop, described.setdefault(_words(prop), rna.name), rna.name) for prop in properties]
         lines.append("")
     return "\n".join(lines)
 
 
-def _row(prop: Any) -> str:
-    """Return the line of one argument."""
+def _row(prop: Any, first: str, here: str) -> str:
+    """Return the line of one argument; `first` is the operator that had it first."""
+    values, text = _words(prop)
+    if first != here:
+        values, text = "", f"As in [{first}](#{first.lower().replace(' ', '-')})"
+    return f"| `{prop.identifier}` | `{_default(prop)}` | {values} | {text} |"
+
+
+def _words(prop: Any) -> tuple[str, str]:
+    """Return the values of an argument, and what it is."""
     text = prop.description.replace("|", "\\|")
-    return f"| `{prop.identifier}` | `{_default(prop)}` | {_values(prop)} | {prop.name}. {text} |"
+    return _values(prop), f"{prop.name}. {text}"
 
 
 def _default(prop: Any) -> str:
