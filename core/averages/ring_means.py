@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ..blocks import Blocks
 from ..mesh.connectivity import Connectivity
 from ..mesh.locality import stable_order
-from ..mesh.ragged import Ragged
+from ..mesh.ragged import Ragged, starts
 from ..mesh.surface_mesh import SurfaceMesh
 from .means import Means
 
@@ -81,7 +81,7 @@ class RingMeans(Means):
     def mean_at(self, points: NDArray[np.floating], vertices: NDArray[np.integer]) -> NDArray[np.floating]:
         """Return the means, shape (3, n), of positions (3, N) over the neighbors of some vertices."""
         members, counts = self._neighbors.taken(vertices)
-        total = np.add.reduceat(points[:, members], np.cumsum(counts) - counts, axis=1)
+        total = np.add.reduceat(points[:, members], starts(counts), axis=1)
         return total / counts.astype(points.dtype)
 
     def averaged(self, field: NDArray[np.floating], n_averages: int) -> NDArray[np.floating]:

@@ -173,7 +173,7 @@ def connect(
         has_quads = size == 4
     else:
         sizes = surface.face_sizes()
-        face_of_corner = np.repeat(np.arange(surface.n_faces, dtype=np.int32), sizes)
+        face_of_corner = surface.face_of_corner()
         face_across = np.where(half_edges.partner >= 0, face_of_corner[half_edges.partner], np.int32(-1))
         size_of_corner = sizes[face_of_corner]
         all_triangles = has_face & ~_marked(n_vertices, corner_vertex[size_of_corner != 3])

@@ -47,10 +47,10 @@ def faces_of_vertices(surface: SurfaceMesh, connectivity: Connectivity | None = 
         size = surface.common_face_size()
         if size:
             return Ragged(corners.offset, corners.items // np.int32(size))
-        own = np.repeat(np.arange(surface.n_faces, dtype=np.int32), surface.face_sizes())
+        own = surface.face_of_corner()
         return Ragged(corners.offset, own[corners.items])
     order = np.argsort(surface.corner_vertex, kind="stable")
-    own = np.repeat(np.arange(surface.n_faces, dtype=np.int32), surface.face_sizes())
+    own = surface.face_of_corner()
     counts = np.bincount(surface.corner_vertex, minlength=surface.n_vertices)
     return Ragged.of_lengths(counts, own[order])
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .connectivity import Connectivity
-from .ragged import Ragged, stretches
+from .ragged import Ragged, starts, stretches
 from .surface_mesh import SurfaceMesh
 
 LARGEST_CLIQUE = 8
@@ -145,16 +145,14 @@ def _search(
     """Return the rings of centers whose surroundings are `around`; rows are counted from `first_row`."""
     width = len(around) + 1  # the last column is for neighbors that do not matter
     neighbor, counts = adjacency.taken(around)
-    begin = np.cumsum(counts) - counts
     neighbor = numbers[neighbor].astype(np.intp)
     neighbor[neighbor < 0] = width - 1  # beyond the last distance
     widest = int(counts.max(initial=0))
     table = None
     if len(around) * widest <= 4 * len(neighbor):
         table = np.full((len(around), widest), width - 1)
-        table[
-            np.repeat(np.arange(len(around)), counts), np.arange(len(neighbor)) - np.repeat(begin, counts)
-        ] = neighbor
+        place = stretches(np.zeros(len(around), np.intp), counts)
+        table[np.repeat(np.arange(len(around)), counts), place] = neighbor
     row = np.arange(len(centers))
     local = numbers[centers].astype(np.intp)
     seen = np.zeros((len(centers), width), bool)
@@ -167,7 +165,7 @@ def _search(
             reached += (row * width)[:, None]
         else:  # a few vertices have very many neighbors
             sizes = counts[local]
-            reached = neighbor[stretches(begin[local], sizes)]
+            reached = neighbor[stretches(starts(counts)[local], sizes)]
             reached += np.repeat(row * width, sizes)
         fresh = np.zeros(seen.shape, bool)
         fresh.reshape(-1)[reached] = True

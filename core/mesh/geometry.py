@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from ..blocks import Blocks
-from .ragged import stretches
+from .ragged import starts, stretches
 from .surface_mesh import SurfaceMesh
 
 CANCELED = 1e-12
@@ -157,7 +157,7 @@ def _newell_areas(
     """Return the vector areas of polygons of any size, shape (3, n)."""
     first = surface.face_offset[:-1][faces]
     counts = surface.face_offset[1:][faces] - first
-    begin = np.cumsum(counts) - counts
+    begin = starts(counts)
     corner = stretches(first, counts)
     following = np.arange(1, len(corner) + 1)
     following[begin + counts - 1] = begin
@@ -213,7 +213,7 @@ def face_tips(
     large = np.flatnonzero(counts > 3)
     if len(large):
         sizes = counts[large]
-        begin = np.cumsum(sizes) - sizes
+        begin = starts(sizes)
         corner = stretches(first[large], sizes)
         corners = points.take(surface.corner_vertex[corner], axis=1, mode="clip")
         tips[:, large] = np.add.reduceat(corners, begin, axis=1) / sizes

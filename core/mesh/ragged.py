@@ -87,7 +87,17 @@ def stretches(begin: NDArray[np.integer], lengths: NDArray[np.integer]) -> NDArr
     >>> stretches(np.array([10, 5]), np.array([2, 3]))
     array([10, 11,  5,  6,  7])
     """
-    before = np.cumsum(lengths, dtype=np.intp) - lengths
-    places: NDArray[np.intp] = np.repeat(begin - before, lengths)
+    places: NDArray[np.intp] = np.repeat(begin - starts(lengths), lengths)
     places += np.arange(len(places))
     return places
+
+
+def starts(lengths: NDArray[np.integer]) -> NDArray[np.intp]:
+    """Return where rows of given lengths begin that stand one behind the other, shape (n,), intp.
+
+    Examples
+    --------
+    >>> starts(np.array([2, 0, 3]))
+    array([0, 2, 2])
+    """
+    return np.cumsum(lengths, dtype=np.intp) - lengths

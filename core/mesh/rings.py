@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import Blocks
+from .ragged import starts
 
 LONGEST_WALK = 32
 """Longer walks are ranked by pointer doubling: a fan of a million faces takes 20 steps, not a million."""
@@ -111,7 +112,7 @@ def _turn_to_lowest(
     lengths, is_closed = lengths[filled], is_closed[filled]
     if not is_closed.any():
         return items
-    begin = np.cumsum(lengths) - lengths
+    begin = starts(lengths)
     target = neighbor[items]
     lowest = np.repeat(np.minimum.reduceat(target, begin), lengths)
     place = np.arange(len(items))

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from ..errors import RegionError
 from ..settings.outliers import SPIKE_LENGTH, SPIKE_VERTICES
 from .connected_components import connected_components
+from .ragged import starts
 from .surface_mesh import SurfaceMesh
 
 ROUNDS = 4
@@ -185,7 +186,7 @@ def _medians(owner: NDArray[np.integer], values: NDArray[np.float64], n_owners: 
     """Return the median, of two in the middle the lower, of the values of each owner; 0 where it has none."""
     order = np.lexsort((values, owner))
     counts = np.bincount(owner, minlength=n_owners)
-    begin = np.cumsum(counts) - counts
+    begin = starts(counts)
     medians = np.zeros(n_owners)
     some = counts > 0
     medians[some] = values[order][begin[some] + (counts[some] - 1) // 2]

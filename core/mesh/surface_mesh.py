@@ -131,6 +131,10 @@ class SurfaceMesh:
         """Return the number of corners of each face, shape (F,), int32."""
         return np.diff(self.face_offset)
 
+    def face_of_corner(self) -> NDArray[np.int32]:
+        """The face of each corner, shape (C,)."""
+        return np.repeat(np.arange(self.n_faces, dtype=np.int32), self.face_sizes())
+
     def common_face_size(self) -> int:
         """Return the number of corners that all faces have; 0 if they differ or there is no face."""
         return self._common_face_size

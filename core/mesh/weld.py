@@ -213,7 +213,7 @@ def _welded_faces(
     both sides then share the edge that it became.
     """
     corner = groups[surface.corner_vertex]
-    face_of_corner = np.repeat(np.arange(surface.n_faces), surface.face_sizes())
+    face_of_corner = surface.face_of_corner()
     stays = corner != corner[surface.next_corner()]  # of equal neighbors the last one stays
     sizes = np.bincount(face_of_corner[stays], minlength=surface.n_faces)
     is_kept = sizes >= 3

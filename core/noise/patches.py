@@ -39,7 +39,7 @@ def local_adjacency(surface: SurfaceMesh, connectivity: Connectivity, centers: N
         return edge_adjacency(connectivity)
     near = np.zeros(surface.n_vertices, bool)
     near[centers] = True
-    face = np.repeat(np.arange(surface.n_faces), surface.face_sizes())
+    face = surface.face_of_corner()
     for _ in range(2):
         touched = np.zeros(surface.n_faces, bool)
         touched[face[near[surface.corner_vertex]]] = True

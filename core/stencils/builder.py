@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..blocks import Blocks
-from ..mesh.ragged import stretches
+from ..mesh.ragged import starts, stretches
 from .stencil import Stencil
 
 Place = tuple[int, int]
@@ -117,7 +117,7 @@ class StencilBuilder:
         wanted = points - self.n_vertices
         sizes = counts[wanted]
         place = stretches(offset[wanted], sizes)
-        front = np.cumsum(sizes) - sizes
+        front = starts(sizes)
         self._counts.append(sizes + 1)
         self._vertices.append(np.insert(vertices[place], front, centers).astype(np.int32))
         self._weights.append(np.insert(-weights[place], front, 2.0))

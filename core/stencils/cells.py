@@ -13,7 +13,7 @@ from ..frames import FilterBank
 from ..frames.filter_bank import CELL_CORNERS
 from ..mesh.connectivity import Connectivity
 from ..mesh.half_edges import find_half_edges
-from ..mesh.ragged import stretches
+from ..mesh.ragged import starts, stretches
 from ..mesh.surface_mesh import SurfaceMesh
 from .builder import StencilBuilder
 from .grid import Grid
@@ -138,7 +138,7 @@ def _set_orbit_means(
     cells = np.flatnonzero(wanted)
     here = corners[cells, k]
     counts = connectivity.valence[here]
-    front = np.cumsum(counts) - counts
+    front = starts(counts)
     spokes = stretches(connectivity.ring_offset[here], counts)
     row = np.repeat(cells, counts)
     target = connectivity.ring[spokes]

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ..blocks import Blocks
 from ..mesh.distance_rings import Ring, distance_rings
 from ..mesh.locality import spatial_order
-from ..mesh.ragged import Ragged
+from ..mesh.ragged import Ragged, starts
 from .ring_points import RingPoints
 from .straight import TIE
 
@@ -89,7 +89,7 @@ def _dilate_once(
     """Replace the ring points of some vertices by their dilations on a ring, in place."""
     valence = offset[centers + 1] - offset[centers]
     counts = np.bincount(ring.row, minlength=len(centers))
-    begin = np.cumsum(counts) - counts
+    begin = starts(counts)
     # Vertices with as many ring points, and candidates up to a multiple of four, go together.
     width = -(-counts // 4) * 4
     kind = valence * (int(width.max(initial=0)) + 1) + width

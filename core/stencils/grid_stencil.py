@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ..frames import FilterBank
 from ..mesh.connectivity import Connectivity
-from ..mesh.ragged import stretches
+from ..mesh.ragged import starts, stretches
 from ..mesh.surface_mesh import SurfaceMesh
 from .builder import Place, StencilBuilder
 from .cells import fill_cells, find_cells
@@ -141,7 +141,7 @@ def _fill_orbit_means(
     """Fill every tap of irregular vertices with the mean over its orbit: all walks of its shape."""
     sites = sites[connectivity.valence[sites] >= 2]
     counts = connectivity.valence[sites]
-    front = np.cumsum(counts) - counts
+    front = starts(counts)
     spokes = stretches(connectivity.ring_offset[sites], counts)
     swing = 2 if len(ring) == 6 else 1
     means: dict[tuple[int, int], tuple[NDArray[np.int32], NDArray[np.bool_]]] = {}

@@ -75,7 +75,7 @@ def quad_points(surface: SurfaceMesh, connectivity: Connectivity) -> RingPoints:
     Of a face with more corners the one half way around is taken; a triangle has none.
     """
     corner = connectivity.ring_corner
-    face_of_corner = np.repeat(np.arange(surface.n_faces), surface.face_sizes())
+    face_of_corner = surface.face_of_corner()
     begin = surface.face_offset[:-1][face_of_corner]
     size = surface.face_sizes()[face_of_corner]
     opposite = begin + (np.arange(surface.n_corners) - begin + size // 2) % np.maximum(size, 1)

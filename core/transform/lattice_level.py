@@ -13,6 +13,7 @@ from ..blocks import Blocks
 from ..errors import FrameError
 from ..frames import FilterBank
 from ..frames.mask_product import apply_matrix, hadamard_bands, is_hadamard
+from ..mesh.ragged import starts
 from ..scratch import Scratch
 from ..stencils import Stencil
 from .level import Bands, Points, Sites, Visit
@@ -194,7 +195,7 @@ class _Incidence:
         self._entries = entries[np.argsort(vertex, kind="stable")]
         counts = np.bincount(vertex, minlength=stencil.n_vertices)
         self.is_served = counts > 0
-        self._begin = (np.cumsum(counts) - counts)[self.is_served]
+        self._begin = starts(counts)[self.is_served]
         self._share = np.divide(1.0, counts[self.is_served]).astype(dtype)
         self._shape = (n_centers, stencil.n_sites)
 

@@ -11,6 +11,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..files.convert import triangles_of
+
 SMOOTHING = 2
 """Points for each pixel in each direction, whose mean it is."""
 
@@ -96,7 +98,7 @@ def picture(
     ((40, 40), True, 255)
     """
     n = size * SMOOTHING
-    triangles = _triangles(np.asarray(face_offset, np.int64), np.asarray(corner_vertex, np.int64))
+    triangles = triangles_of(np.asarray(face_offset, np.int64), corner_vertex)
     scale = n * 0.94 / view.width
     seen = (np.asarray(positions, np.float64) - view.center) @ view.axes.T * scale
     seen[:, :2] += n / 2
@@ -117,15 +119,6 @@ def picture(
             _draw(depth, image, corners[part], shade[part], weights, n)
     small = image.reshape(size, SMOOTHING, size, SMOOTHING).mean(axis=(1, 3))
     return np.round(small * 255).astype(np.uint8)
-
-
-def _triangles(offset: NDArray[np.int64], corner: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Return polygons as fans of triangles, shape (T, 3)."""
-    sizes = np.maximum(np.diff(offset) - 2, 0)
-    face = np.repeat(np.arange(len(sizes)), sizes)
-    within = np.arange(len(face)) - np.repeat(np.cumsum(sizes) - sizes, sizes)
-    begin = offset[face]
-    return np.stack((corner[begin], corner[begin + within + 1], corner[begin + within + 2]), axis=1)
 
 
 def _weights(step: int) -> NDArray[np.float64]:

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.mesh.ragged import stretches
 from .mesh_file import FileError, MeshFile, check_range
 
 
@@ -22,10 +23,8 @@ def triangles_of(face_offset: NDArray[Any], corner_vertex: NDArray[Any]) -> NDAr
     """
     sizes = np.diff(face_offset)
     n_triangles = np.maximum(sizes - 2, 0)
-    first = np.repeat(face_offset[:-1], n_triangles)
-    begin = np.cumsum(n_triangles) - n_triangles
-    place = np.arange(int(n_triangles.sum())) - np.repeat(begin, n_triangles)
-    corners = np.stack((first, first + place + 1, first + place + 2), axis=1)
+    second = stretches(face_offset[:-1] + 1, n_triangles)
+    corners = np.stack((np.repeat(face_offset[:-1], n_triangles), second, second + 1), axis=1)
     return np.asarray(corner_vertex, np.int64)[corners]
 
 

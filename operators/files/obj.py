@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.mesh.ragged import starts
 from . import digits, text
 from .mesh_file import FileError, MeshFile, Part, members
 
@@ -246,7 +247,7 @@ def _coordinates(block: text.Block, lines: NDArray[np.bool_]) -> NDArray[np.floa
     numbers = text.numbers(letters, np.float64, int(counts.sum()))
     if (counts == counts[0]).all():
         return numbers.reshape(-1, counts[0])[:, :3]
-    begin = np.cumsum(counts) - counts
+    begin = starts(counts)
     return numbers[begin[:, None] + np.arange(3)]
 
 

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.mesh.ragged import stretches
 from .mesh_file import FileError
 from .ply_header import TYPES, Element, Table
 
@@ -143,8 +144,7 @@ class BinaryLayout:
             shape, strides = (len(at), int(lengths[0])), (step, dtype.itemsize)
             rows = np.ndarray(shape, dtype, self._data, int(at[0]), strides=strides)
             return rows.reshape(-1).astype(np.int64)
-        begin = np.cumsum(lengths) - lengths
-        within = np.arange(int(lengths.sum())) - np.repeat(begin, lengths)
+        within = stretches(np.zeros_like(lengths), lengths)
         return self._gathered(np.repeat(at, lengths) + within * dtype.itemsize, dtype).astype(np.int64)
 
     def _gathered(self, at: NDArray[np.int64], dtype: np.dtype) -> NDArray[Any]:

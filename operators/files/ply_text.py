@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.mesh.ragged import stretches
 from . import digits, text
 from .mesh_file import FileError
 from .ply_header import Element, Table
@@ -135,9 +136,7 @@ class TextLayout:
 
     def lists(self, at: NDArray[np.int64], lengths: NDArray[np.int64], kind: str) -> NDArray[np.int64]:
         """Return the values of all lists, one after the other."""
-        begin = np.cumsum(lengths) - lengths
-        within = np.arange(int(lengths.sum())) - np.repeat(begin, lengths)
-        numbers = self._all()[np.repeat(at, lengths) + within]
+        numbers = self._all()[stretches(at, lengths)]
         if not (np.abs(numbers) < 2.0**53).all():
             raise FileError(
                 "A face names a vertex by something that is no whole number; the file is damaged."

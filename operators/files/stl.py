@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.mesh.ragged import starts
 from . import digits, text
 from .mesh_file import FileError, MeshFile, doubles
 from .places import merge_equal
@@ -162,7 +163,7 @@ def _rows(block: text.Block, keyword: bytes) -> NDArray[np.float64]:
     if keyword == _NAMES[1]:
         # ‘normal’ stands before the numbers.
         at = np.flatnonzero(text.word_starts(letters))
-        word = at[np.cumsum(counts) - counts]
+        word = at[starts(counts)]
         for place in range(len(b"normal")):
             letters[np.minimum(word + place, len(letters) - 1)] = 32
         counts = counts - 1

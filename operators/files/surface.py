@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.mesh.ragged import starts
 from .mesh_file import MeshFile, Part
 
 if TYPE_CHECKING:
@@ -87,7 +88,7 @@ def _without_repeats(
     # A polygon that comes back to a vertex has fewer different ones than corners.
     for size in np.unique(left[left > 3]).tolist():
         faces = np.flatnonzero((left == size) & is_kept)
-        begin = np.cumsum(left) - left
+        begin = starts(left)
         rows = np.sort(corner[stays][begin[faces][:, None] + np.arange(size)], axis=1)
         is_kept[faces[(np.diff(rows, axis=1) == 0).any(axis=1)]] = False
     if stays.all() and is_kept.all():
