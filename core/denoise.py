@@ -16,14 +16,12 @@ from .limits.finish import finish
 from .limits.region import Region
 from .limits.resolved_region import resolve
 from .memory import check_memory
-from .mesh.checks import check_mesh
-from .mesh.connectivity import Connectivity, check_connectivity
+from .mesh.connectivity import Connectivity
 from .mesh.surface_mesh import SurfaceMesh
 from .methods import METHODS
 from .methods.problem import Callback
-from .precision import as_precision
 from .preparation_cache import PreparationCache, prepared_for
-from .prepared import Prepared
+from .prepared import Prepared, check_given
 from .report import DenoiseResult, account, stopped_report
 from .settings import DEFAULT_PRESET, PRESETS, DenoiseSettings
 from .value_checks import check_callable, check_kind
@@ -70,30 +68,22 @@ def denoise(
     Returns
     -------
     DenoiseResult
-        Positions in the dtype of the input; vertices that did not move are bit-identical. If `callback`
-        stopped the run, they are what was reached; if `should_stop` did, the input.
+        Positions in the dtype of the input, bit-identical where nothing moved; what was reached if `callback`
+        stopped the run, the input if `should_stop` did.
 
     Raises
     ------
     FrameletError
-        In one sentence, if the mesh has no faces, no size or positions that are not finite, if `movable`, the
-        region or `connectivity` does not fit it, if `prepared` is for something else, if an argument is of
-        another type, or if it needs more than `max_bytes`.
+        In one sentence, if the mesh cannot be denoised, if an argument is of another type or does not fit it,
+        or if the run needs more than `max_bytes`.
     """
     began = perf_counter()
-    check_mesh(surface)
-    check_kind("The settings", settings, DenoiseSettings, "DenoiseSettings")
+    check_given(surface, settings, connectivity, should_stop)
     check_kind("The region", region, Region, "a Region", RegionError)
-    check_kind(
-        "What is prepared", prepared, (Prepared, PreparationCache), "what `prepare` returns or a cache"
-    )
-    check_connectivity(connectivity, surface)
+    check_kind("What is prepared", prepared, (Prepared, PreparationCache), "what `prepare` returns")
     check_callable("The callback", callback)
-    check_callable("What stops the run", should_stop)
     settings = settings or PRESETS[DEFAULT_PRESET].settings
     region = region or Region()
-    dtype = as_precision(dtype)
-    movable = None if movable is None else np.asarray(movable)
     resolved = resolve(region, surface, movable)  # what the region says about each vertex
     check_memory(surface, settings, max_bytes)
     try:
@@ -107,6 +97,7 @@ def denoise(
             finished = finish(
                 motion, welded, resolved, region, problem.constraints, blocks, prepared.known_faces(resolved)
             )
+            prepared.remember(resolved, finished.flips.before)
             vertices = resolved.in_given_order(finished.vertices)
             report = account(resolved, vertices, finished, problem, solution, began)
     except Stopped:

@@ -12,13 +12,11 @@ from numpy.typing import DTypeLike
 
 from .errors import FrameletError
 from .limits.resolved_region import ResolvedRegion
-from .mesh.checks import check_mesh
 from .mesh.connectivity import Connectivity
 from .mesh.surface_mesh import SurfaceMesh
 from .precision import as_precision
-from .prepared import Prepared, prepare, prepare_again
+from .prepared import Prepared, check_given, prepare, prepare_again
 from .settings import DenoiseSettings
-from .value_checks import check_callable, check_kind
 
 MAX_BYTES = 2**30
 """By default this much is kept: what four meshes of half a million vertices need."""
@@ -54,9 +52,7 @@ class PreparationCache:
 
         The mesh may be edited in place afterwards: arrays that can be written to are copied.
         """
-        check_mesh(surface)
-        check_kind("The settings", settings, DenoiseSettings, "DenoiseSettings")
-        check_callable("What stops the work", should_stop)
+        check_given(surface, settings, None, should_stop)
         dtype = as_precision(dtype)
         previous = next((kept for kept in reversed(self._kept) if kept.has_topology_of(surface)), None)
         prepared = prepare_again(surface, settings, previous, dtype=dtype, should_stop=should_stop)
@@ -90,7 +86,7 @@ def prepared_for(
     FrameletError
         If what was prepared is for another mesh or other stencils.
     """
-    surface = resolved.surface
+    surface, dtype = resolved.surface, as_precision(dtype)
     if resolved.weld is not None:
         connectivity = None
     if isinstance(known, PreparationCache):

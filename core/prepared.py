@@ -8,7 +8,7 @@ It depends on the mesh and on the settings that choose the stencils, not on λ, 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
@@ -38,7 +38,7 @@ from .value_checks import check_callable, check_kind, check_number
 TOPOLOGY = tuple(item.name for item in fields(SurfaceMesh) if item.name != "vertices")
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(eq=False)
 class Prepared:
     """A mesh that is ready to be denoised.
 
@@ -64,8 +64,8 @@ class Prepared:
         Tables of faces, if the method uses them.
     blocks : Blocks
         Threads to work on, to be entered by each run.
-    faces : list of FaceState
-        What the first run that was finished on it found out about the faces of `ordered`; empty before.
+    faces : FaceState or None
+        What the first run that was finished on it found out about the faces of `ordered`; None before.
     """
 
     surface: SurfaceMesh
@@ -78,7 +78,7 @@ class Prepared:
     engine: FaceEngine | None
     blocks: Blocks
     key: tuple[Any, ...]
-    faces: list[FaceState] = field(default_factory=list)
+    faces: FaceState | None = None
 
     @property
     def ordered(self) -> SurfaceMesh:
@@ -165,12 +165,27 @@ class Prepared:
         blocks.run(kernel, points.shape[1])
         return motion
 
-    def known_faces(self, resolved: ResolvedRegion) -> list[FaceState]:
-        """Return the list that what is found out about the faces of the input is kept in.
+    def known_faces(self, resolved: ResolvedRegion) -> FaceState | None:
+        """Return what is known of the faces of the input; nothing of those that move with a welded mesh."""
+        return self.faces if resolved.weld is None else None
 
-        What is known of the faces is known of a mesh that moves as it is.
-        """
-        return self.faces if resolved.weld is None else []
+    def remember(self, resolved: ResolvedRegion, faces: FaceState) -> None:
+        """Keep what a run found out about the faces of the input."""
+        if resolved.weld is None:
+            self.faces = faces
+
+
+def check_given(
+    surface: SurfaceMesh,
+    settings: DenoiseSettings | None,
+    connectivity: Connectivity | None,
+    should_stop: Callable[[], bool] | None,
+) -> None:
+    """Raise a FrameletError if one of these is of another type, or if they do not fit each other."""
+    check_mesh(surface)
+    check_kind("The settings", settings, DenoiseSettings, "DenoiseSettings")
+    check_connectivity(connectivity, surface)
+    check_callable("What stops the run", should_stop)
 
 
 def prepare(
@@ -215,11 +230,8 @@ def prepare(
         In one sentence, if the mesh has no faces, no size or positions that are not finite, if the frame
         does not fit it, or if an argument is of another type.
     """
-    check_mesh(surface)
-    check_kind("The settings", settings, DenoiseSettings, "DenoiseSettings")
+    check_given(surface, settings, connectivity, should_stop)
     check_kind("What was prepared before", previous, Prepared, "what `prepare` returned")
-    check_connectivity(connectivity, surface)
-    check_callable("What stops the work", should_stop)
     check_number("The size of a block", block_size, 1, is_whole=True)
     dtype = as_precision(dtype)
     settings = settings or PRESETS[DEFAULT_PRESET].settings

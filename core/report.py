@@ -93,8 +93,8 @@ def account(
 
     `vertices`, shape (N, 3), are the new positions of the mesh that was given.
     """
-    surface, watch = resolved.original, finished.watch
-    connectivity = watch.welded.connectivity
+    surface, flips = resolved.original, finished.flips
+    connectivity = flips.welded.connectivity
 
     def measure(start: int, stop: int) -> tuple[int, float, float]:
         moved = vertices[start:stop].astype(np.float64) - surface.vertices[start:stop]
@@ -104,22 +104,22 @@ def account(
 
     n_moved, squares, largest = zip(*problem.blocks.run(measure, surface.n_vertices), strict=True)
     volume_change = None
-    if connectivity.is_closed and watch.before.volume:
-        volume_change = (watch.volume - watch.before.volume) / watch.before.volume
+    if connectivity.is_closed and flips.before.volume:
+        volume_change = (flips.volume - flips.before.volume) / flips.before.volume
     return DenoiseReport(
         n_vertices=surface.n_vertices,
         n_faces=surface.n_faces,
         n_moved=sum(n_moved),
         iterations=solution.iterations,
         is_stopped=solution.is_stopped,
-        mean_edge_length=watch.welded.edge,
+        mean_edge_length=flips.welded.edge,
         displacement_rms=float(np.sqrt(sum(squares) / surface.n_vertices)),
         displacement_max=float(np.sqrt(max(largest))),
-        flipped_faces=watch.n_turned,
-        folded_faces=int(np.count_nonzero(watch.is_folded)),
-        folded_faces_before=int(np.count_nonzero(watch.before.is_folded)),
-        degenerate_faces=int(np.count_nonzero(watch.is_degenerate)),
-        degenerate_faces_before=int(np.count_nonzero(watch.before.is_degenerate)),
+        flipped_faces=flips.n_turned,
+        folded_faces=int(np.count_nonzero(flips.is_folded)),
+        folded_faces_before=int(np.count_nonzero(flips.before.is_folded)),
+        degenerate_faces=int(np.count_nonzero(flips.is_degenerate)),
+        degenerate_faces_before=int(np.count_nonzero(flips.before.is_degenerate)),
         damped_vertices=finished.n_damped,
         volume_change=volume_change,
         irregular_vertices=int(np.count_nonzero(connectivity.is_irregular())),

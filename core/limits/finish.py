@@ -32,7 +32,7 @@ class Finished(NamedTuple):
     """Positions of the original surface, shape (N, 3), its faces as they are now, and damped vertices."""
 
     vertices: NDArray[np.floating]
-    watch: FaceFlips
+    flips: FaceFlips
     n_damped: int
 
 
@@ -43,7 +43,7 @@ def finish(
     region: Region,
     constraints: Constraints,
     blocks: Blocks,
-    known: list[FaceState],
+    known: FaceState | None,
 ) -> Finished:
     """Bring displacements within the limits of a region, and mend what they do.
 
@@ -59,43 +59,42 @@ def finish(
         The limits.
     constraints : Constraints
         Vertices that are pinned take no part in the offset for the volume.
-    known : list of FaceState
-        The faces of the input, if they are known already, see `FaceFlips`; afterwards they are.
+    known : FaceState or None
+        The faces of the input, if they are known already: what `flips.before` of a result was.
     """
     motion = Motion(found, welded, region, resolved.movable, resolved.weights, constraints.pinned)
-    watch = FaceFlips(welded, blocks, known[0] if known else None)
-    known[:] = [watch.before]
+    flips = FaceFlips(welded, blocks, known)
     shares = np.ones(found.shape[1])
-    vertices = _settled(motion.at(), shares, watch, region, blocks)
+    vertices = _settled(motion.at(), shares, flips, region, blocks)
     if not (region.keep_volume and welded.connectivity.is_closed):
-        return Finished(vertices, watch, _n_damped(motion.at(), shares))
-    area = watch.area_before * motion.allow_offset(shares)
+        return Finished(vertices, flips, _n_damped(motion.at(), shares))
+    area = flips.area_before * motion.allow_offset(shares)
 
     def volume_at(offset: float) -> float:
-        return watch.volume_at(welded.moved(motion.at(offset) * shares, blocks))
+        return flips.volume_at(welded.moved(motion.at(offset) * shares, blocks))
 
     offset = 0.0
     for _ in range(VOLUME_ROUNDS):
-        offset = volume_offset(volume_at, watch.before.volume, area, offset)
+        offset = volume_offset(volume_at, flips.before.volume, area, offset)
         old_shares = shares.copy()
-        vertices = _settled(motion.at(offset), shares, watch, region, blocks)
+        vertices = _settled(motion.at(offset), shares, flips, region, blocks)
         if np.array_equal(old_shares, shares):
             break
-    return Finished(vertices, watch, _n_damped(motion.at(offset), shares))
+    return Finished(vertices, flips, _n_damped(motion.at(offset), shares))
 
 
 def _settled(
     displacement: NDArray[np.float64],
     shares: NDArray[np.float64],
-    watch: FaceFlips,
+    flips: FaceFlips,
     region: Region,
     blocks: Blocks,
 ) -> NDArray[np.floating]:
     """Return the positions after a displacement, with folds taken back if that is wanted."""
     if region.repair_folds:
-        return damp_until_valid(watch, displacement, shares, blocks)
-    vertices = watch.welded.moved(displacement, blocks)
-    watch.look(vertices)
+        return damp_until_valid(flips, displacement, shares, blocks)
+    vertices = flips.welded.moved(displacement, blocks)
+    flips.look(vertices)
     return vertices
 
 

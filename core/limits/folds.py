@@ -27,13 +27,13 @@ LAST_ROUND = 96
 
 
 def damp_until_valid(
-    watch: FaceFlips, displacement: NDArray[np.float64], shares: NDArray[np.float64], blocks: Blocks
+    flips: FaceFlips, displacement: NDArray[np.float64], shares: NDArray[np.float64], blocks: Blocks
 ) -> NDArray[np.floating]:
     """Damp the motion where the surface folds, until no face is worse than in the input.
 
     Parameters
     ----------
-    watch : FaceFlips
+    flips : FaceFlips
         The faces, which are looked at; at the end they are seen as they are in the result.
     displacement : ndarray, shape (3, n)
         Of the vertices of the mesh that was worked on, in scene units.
@@ -51,46 +51,46 @@ def damp_until_valid(
     are 0 already the vertices of the faces around follow. A face none of whose neighbors has moved is as it
     was in the input, so that this comes to an end.
     """
-    welded = watch.welded
+    welded = flips.welded
     topology = welded.topology
     is_whole = bool((shares == 1.0).all())
     vertices = welded.moved(displacement if is_whole else displacement * shares, blocks)
-    watch.look(vertices)
+    flips.look(vertices)
     least = 0.5**HALVINGS
     for round_ in range(LAST_ROUND):
-        bad = np.flatnonzero(watch.is_bad())
+        bad = np.flatnonzero(flips.is_bad())
         if not len(bad):
             if round_:
-                watch.look(vertices)  # the volume too
+                flips.look(vertices)  # the volume too
             return vertices
-        changed = _vertices_of(watch, bad)
-        stuck = bad[~_any_moves(watch, bad, shares)]
+        changed = _vertices_of(flips, bad)
+        stuck = bad[~_any_moves(flips, bad, shares)]
         if len(stuck) or round_ > PATIENCE:
-            near = _vertices_of(watch, bad if round_ > PATIENCE else stuck)
-            changed |= _vertices_of(watch, faces_at(topology, near))
+            near = _vertices_of(flips, bad if round_ > PATIENCE else stuck)
+            changed |= _vertices_of(flips, faces_at(topology, near))
         changed &= shares > 0.0
         halved = 0.5 * shares[changed]
         halved[(halved < least) | (round_ > PATIENCE)] = 0.0
         shares[changed] = halved
         vertices = welded.moved(displacement * shares, blocks)
-        watch.look_around(vertices, changed)
+        flips.look_around(vertices, changed)
     shares[:] = 0.0
     vertices = welded.surface.vertices.copy()
-    watch.look(vertices)
+    flips.look(vertices)
     return vertices
 
 
-def _vertices_of(watch: FaceFlips, faces: NDArray[np.intp]) -> NDArray[np.bool_]:
+def _vertices_of(flips: FaceFlips, faces: NDArray[np.intp]) -> NDArray[np.bool_]:
     """Return a mask of the vertices of some faces, shape (n,)."""
-    topology = watch.welded.topology
+    topology = flips.welded.topology
     result = np.zeros(topology.n_vertices, bool)
     result[topology.corner_vertex[corners_of(topology, faces)[1]]] = True
     return result
 
 
-def _any_moves(watch: FaceFlips, faces: NDArray[np.intp], shares: NDArray[np.float64]) -> NDArray[np.bool_]:
+def _any_moves(flips: FaceFlips, faces: NDArray[np.intp], shares: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Return which of some faces have a vertex with a share above 0."""
-    topology = watch.welded.topology
+    topology = flips.welded.topology
     counts, corner = corners_of(topology, faces)
     own = np.repeat(np.arange(len(faces)), counts)
     return np.bincount(own, shares[topology.corner_vertex[corner]], len(faces)) > 0.0

@@ -124,6 +124,7 @@ def resolve(region: Region, surface: SurfaceMesh, movable: NDArray[np.bool_] | N
         the welded mesh.
     """
     if movable is not None:
+        movable = np.asarray(movable)
         _check_movable(movable, surface.n_vertices)
     region.check(surface.n_vertices)
     weights = None

@@ -247,10 +247,10 @@ def test_what_is_known_of_the_faces_is_kept_and_counted(rng):
     prepared = prepare(mesh, settings)
     before = bytes_of(prepared)
     denoise(mesh, settings, prepared=prepared)
-    (faces,) = prepared.faces
+    faces = prepared.faces
     assert bytes_of(prepared) >= before + faces.areas.nbytes
     denoise(mesh, settings, prepared=prepared)
-    assert prepared.faces[0].areas is faces.areas
+    assert prepared.faces.areas is faces.areas
 
 
 def test_what_is_known_of_the_faces_is_not_used_for_welded_meshes(rng):
