@@ -11,6 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .errors import TooLargeError
+from .frames import BANKS, FilterBank
+from .frames.valence_masks import FAMILIES
 from .mesh.surface_mesh import SurfaceMesh
 from .settings import DenoiseSettings
 from .value_checks import check_number
@@ -40,9 +42,6 @@ _PER_CELL_TAP = 105
 _PER_WALKED_TAP = 20
 _PER_BAND = 12  # three coordinates in single precision
 _FIXED = 32 * 2**20  # blocks in work
-
-_WIDE_FRAMES = {"BOX_SPLINE_FOUR_DIRECTION": 12} | {f"B_SPLINE_{n}": (n + 1) ** 2 for n in (1, 3, 4, 5, 6)}
-_CELL_WALKS = {"BOX_SPLINE_FOUR_DIRECTION": 2, "B_SPLINE_1": 0, "B_SPLINE_3": 4, "B_SPLINE_5": 16}
 
 
 def estimated_bytes(
@@ -103,70 +102,64 @@ def _frame_bytes(
     if settings.frame == "PAIRWISE":
         of_hubs = PER_HUB_BAND * settings.levels * squares / 2
     n_neighbors = n_corners / max(n_vertices, 1)
-    if _is_walked(settings):
+    bank = _bank(settings, n_neighbors)
+    if bank is not None and _is_walked(bank):
         is_triangles = n_neighbors > 5.0  # with two cells at each corner: on its spoke, and across
-        of_hubs += PER_HUB_WALK * _walks_of_a_cell(settings.frame) * (1 + is_triangles) * squares
+        of_hubs += PER_HUB_WALK * _walks_out(bank) * (1 + is_triangles) * squares
     else:
         # The ring of a vertex among quads holds their far corners as well, except with masks of its valence.
-        is_wide = not _fits_valence(settings) and _is_on_quads(settings.frame, n_neighbors)
+        is_wide = bank is not None and bank.lattice == "QUADS"
         share = 4 ** (settings.levels - 1) / 4 * (4 if is_wide and settings.levels > 1 else 1)
         of_hubs += PER_DILATED_PAIR * _hub_pairs(n_vertices, valences, share)
     return int(of_hubs) + _taps_bytes(n_vertices, n_corners, settings)
 
 
-def _fits_valence(settings: DenoiseSettings) -> bool:
-    """Tell whether the masks fit the valence of each vertex."""
-    return settings.stencil == "ADAPTIVE" or settings.frame in ("ADAPTIVE", "PAIRWISE")
+def _bank(settings: DenoiseSettings, n_neighbors: float) -> FilterBank | None:
+    """Return the filter bank of a run; None where the masks fit the valence of each vertex."""
+    frame: Any = settings.frame  # a name, or a bank of one's own
+    if frame == "AUTO":
+        frame = "LINEAR_SPLINE" if n_neighbors <= 5.0 else "BOX_SPLINE_111"
+    if settings.stencil == "ADAPTIVE" or frame in FAMILIES:
+        return None
+    return BANKS[frame] if isinstance(frame, str) else frame
 
 
-def _is_walked(settings: DenoiseSettings) -> bool:
+def _is_walked(bank: FilterBank) -> bool:
     """Tell whether stencils are filled by walking on the mesh."""
-    frame: Any = settings.frame
-    if isinstance(frame, str):
-        return frame in _WIDE_FRAMES and not _fits_valence(settings)
-    return not _fits_valence(settings) and (frame.is_cell_centered or frame.reach > 1)
+    return bank.is_cell_centered or bank.reach > 1
 
 
-def _is_on_quads(frame: Any, n_neighbors: float) -> bool:
-    """Tell whether a frame with 3x3 masks works on quads."""
-    if not isinstance(frame, str):
-        return frame.lattice == "QUADS"
-    return frame in ("LINEAR_SPLINE", "LINEAR_SPLINE_REDUCED", "B_SPLINE_2") or (
-        frame == "AUTO" and n_neighbors <= 5.0
-    )
+def _walks_out(bank: FilterBank) -> int:
+    """Return how many walks through each spoke of a cell's corner fill the taps beyond it.
 
-
-def _walks_of_a_cell(frame: Any) -> int:
-    """Return how many walks through each spoke of a corner fill the taps beyond it; 0 for other masks."""
-    if isinstance(frame, str):
-        return _CELL_WALKS.get(frame, 0)
-    return 4 * frame.reach**2 if frame.is_cell_centered else 0
+    One leads straight out, two to a tap across the corner, and four to one that lies askew.
+    """
+    if not bank.is_cell_centered:
+        return 0
+    a, b = (bank.offsets[(bank.offsets >= 1).all(axis=1)] - 1).T
+    is_across = (a > 0) & (b > 0)
+    return int(((1 + is_across) * (1 + (is_across & (a != b)))).sum()) - 1
 
 
 def _taps_bytes(n_vertices: int, n_corners: int, settings: DenoiseSettings) -> int:
     """Return what stencils and coefficients take where no vertex has many neighbors."""
-    frame: Any = settings.frame  # a name, or a bank of one's own
     n_neighbors = n_corners / max(n_vertices, 1)
-    if _fits_valence(settings):
-        n_bands = n_neighbors * (n_neighbors + 1) / 2 if frame == "PAIRWISE" else n_neighbors
+    bank = _bank(settings, n_neighbors)
+    if bank is None:
+        n_bands = n_neighbors * (n_neighbors + 1) / 2 if settings.frame == "PAIRWISE" else n_neighbors
         per_level = ADAPTIVE_PER_TAP * (n_neighbors + 1) + _PER_BAND * n_bands
         return int(n_vertices * (per_level * settings.levels + ADAPTIVE_ONCE * (settings.levels > 1)))
-    n_sites: float = n_vertices
-    n_levels = settings.levels
-    total = 0.0
-    if frame in _WIDE_FRAMES or not isinstance(frame, str):
-        n_taps = _WIDE_FRAMES[frame] if isinstance(frame, str) else frame.n_taps
-        if frame in _CELL_WALKS or getattr(frame, "is_cell_centered", False):
+    n_levels, n_taps, total = settings.levels, bank.n_taps, 0.0
+    if _is_walked(bank):
+        if bank.is_cell_centered:
             # Cells are pairs of triangles or quads; at coarser levels the sites are the vertices.
             is_triangles = n_neighbors > 5.0
             total += _PER_CELL_TAP * n_taps * (n_corners / 2 if is_triangles else n_corners / 4)
             n_levels -= 1
-        total += n_levels * n_sites * n_taps * _PER_WALKED_TAP
-        return int(total)
-    n_taps = 9 if _is_on_quads(frame, n_neighbors) else 7
+        return int(total + n_levels * n_vertices * n_taps * _PER_WALKED_TAP)
     n_bands = 3 if settings.shrinkage in ("VECTOR", "SCALAR") else n_taps
     per_level = 4 * n_taps + 2 * _PER_BAND * n_bands
-    return int(n_sites * (per_level * n_levels + LATTICE_ONCE * (n_levels > 1)))
+    return int(n_vertices * (per_level * n_levels + LATTICE_ONCE * (n_levels > 1)))
 
 
 def check_memory(surface: SurfaceMesh, settings: DenoiseSettings, max_bytes: int | None) -> None:

@@ -73,7 +73,7 @@ class FaceGraph:
         blocks: Blocks,
         faces_at_once: int = FACES_AT_ONCE,
     ) -> None:
-        self.blocks = blocks.with_block_size(min(faces_at_once, blocks.block_size))
+        self.blocks = blocks.with_block_size(min(faces_at_once, FACES_AT_ONCE, blocks.block_size))
         size = surface.common_face_size()
         offset, corner_vertex, corner_edge = surface.face_offset, surface.corner_vertex, surface.corner_edge
         across = connectivity.face_across
