@@ -9,8 +9,9 @@ same bits for any number of threads.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from threading import Lock
 from types import TracebackType
 from typing import Any, TypeVar
@@ -66,18 +67,20 @@ class Blocks:
             self._pool = None
         self._should_stop = None
 
-    def with_threads(self, n_threads: int) -> Blocks:
-        """Set the number of threads for the next time this is entered, and return this object."""
-        self.n_threads = n_threads or default_threads()
-        return self
+    @contextmanager
+    def entered(
+        self, should_stop: Callable[[], bool] | None, n_threads: int | None = None
+    ) -> Iterator[Blocks]:
+        """Enter these blocks with a number of threads, by default that of before, and with a question.
 
-    def stopped_by(self, should_stop: Callable[[], bool] | None) -> Blocks:
-        """Ask a function before each block, until this is left: True raises `Stopped`. Return this object.
-
-        It is asked on the thread that `run` was called on; kernels that call `run` themselves ask on theirs.
+        `should_stop` is asked before each block until they are left: True raises `Stopped`. It is asked on the
+        thread that `run` was called on; kernels that call `run` themselves ask on theirs.
         """
+        if n_threads is not None:
+            self.n_threads = n_threads or default_threads()
         self._should_stop = should_stop
-        return self
+        with self:
+            yield self
 
     def check(self) -> None:
         """Raise `Stopped` if the run is asked to stop; for long work that has no blocks."""
@@ -102,7 +105,7 @@ class Blocks:
         Raises
         ------
         Stopped
-            If the function given to `stopped_by` says so. Kernels that have begun are waited for.
+            If the function given to `entered` says so. Kernels that have begun are waited for.
         """
         starts = range(0, n_items, self.block_size)
         results: list[Any] = [None] * len(starts)

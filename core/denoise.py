@@ -88,7 +88,7 @@ def denoise(
     check_memory(surface, settings, max_bytes)
     try:
         prepared = prepared_for(resolved, settings, connectivity, dtype, should_stop, prepared)
-        with prepared.blocks.with_threads(settings.threads).stopped_by(should_stop) as blocks:
+        with prepared.blocks.entered(should_stop, settings.threads) as blocks:
             resolved = resolved.renumbered(prepared.reordering)
             problem = prepared.problem(resolved, settings, blocks, callback)  # in mean edge lengths
             solution = METHODS[settings.method](problem)

@@ -266,7 +266,7 @@ def prepare_again(
         if reordering is not None:
             reordering = reordering.with_vertices(surface.vertices)
     blocks = Blocks(settings.threads, block_size)
-    with blocks.stopped_by(should_stop):
+    with blocks.entered(should_stop):
         check_positions(surface)  # while its vertices have the numbers that the caller knows
         if connectivity is None and is_scattered(surface):
             reordering = reorder(surface, spatial_order(surface.vertices), blocks)

@@ -206,7 +206,7 @@ def test_questions_are_asked_once_for_each_block_on_the_calling_thread(threads):
     def kernel(start, stop):
         worked.append(start)
 
-    with Blocks(threads, block_size=1).stopped_by(should_stop) as blocks:
+    with Blocks(threads, block_size=1).entered(should_stop) as blocks:
         blocks.run(kernel, 50)
         blocks.with_block_size(20).run(kernel, 50)
     assert asked == [threading.current_thread()] * 53

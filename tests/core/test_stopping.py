@@ -85,7 +85,7 @@ def test_a_stop_in_preparing_keeps_nothing_of_it(mesh):
 def test_blocks_ask_before_each_block(n_threads):
     done = []
     should_stop, calls = asked(4)
-    with pytest.raises(Stopped), Blocks(n_threads, block_size=10).stopped_by(should_stop) as blocks:
+    with pytest.raises(Stopped), Blocks(n_threads, block_size=10).entered(should_stop) as blocks:
         blocks.with_block_size(5).run(lambda start, stop: done.append(start), 50)
     assert len(calls) == 4
     assert set(done) >= {0, 5, 10}
@@ -95,7 +95,7 @@ def test_blocks_ask_before_each_block(n_threads):
 
 def test_blocks_forget_the_question_on_leaving():
     blocks = Blocks(2, block_size=10)
-    with pytest.raises(Stopped), blocks.stopped_by(lambda: True):
+    with pytest.raises(Stopped), blocks.entered(lambda: True):
         blocks.check()
     blocks.check()
     with blocks:
