@@ -73,8 +73,8 @@ class Blocks:
     ) -> Iterator[Blocks]:
         """Enter these blocks with a number of threads, by default that of before, and with a question.
 
-        `should_stop` is asked before each block until they are left: True raises `Stopped`. It is asked on the
-        thread that `run` was called on; kernels that call `run` themselves ask on theirs.
+        `should_stop` is asked before each block until they are left: True raises `Stopped`. It is asked on
+        the thread that `run` was called on; kernels that call `run` themselves ask on theirs.
         """
         if n_threads is not None:
             self.n_threads = n_threads or default_threads()

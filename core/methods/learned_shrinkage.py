@@ -28,7 +28,7 @@ from ..learned.residual import Residual
 from ..learned.tangential_noise import tangential_step
 from ..learned.width import shared_share, strong_share
 from ..noise import find_steps
-from .problem import Problem, Solution
+from .problem import Problem, Solution, rms_motion
 
 WEAKEST = 0.25
 """Strength below which results are mixed with the input instead: nothing is learned of noise that weak."""
@@ -100,6 +100,7 @@ class _Run:
         self.points, self.engine, self._problem = points, engine, problem
         self._held = points
         self.shared, self.along = 0.0, 0.0
+        self._change = math.nan  # nothing has moved yet
         self._done, self._n_left = 0.0, float(TICKS * problem.settings.passes)
         self._log_strength = math.log(max(problem.settings.strength, WEAKEST))
         self._wide = np.array([problem.settings.noise == "WIDE"], np.float32)
@@ -140,11 +141,14 @@ class _Run:
         if self._problem.settings.noise == "AUTO":
             first = self._with_width(first)
         first = self._still(first)
-        is_wanted = self._wide.min() == self._wide.max() in (0, 1) and not self._log_strength
-        if not is_wanted:
-            self._n_left += TICKS
+        # A pass of the strength that is wanted, by the one net that is wanted everywhere, is known already.
+        is_one_net = self._wide.min() == self._wide.max() and self._wide[0] in (0, 1)
+        if is_one_net and self._problem.settings.strength == 1.0:
+            self._tick()
+            return first
+        self._n_left += TICKS
         self._tick()
-        return first if is_wanted else self.next_pass(self.points)
+        return self.next_pass(self.points)
 
     def next_pass(self, fitted: NDArray[np.float32]) -> NDArray[np.float32]:
         """Return the positions, shape (3, N), after a pass that is guided by fitted ones."""
@@ -220,15 +224,16 @@ class _Run:
             normals *= wide
             normals += fine
             normals /= np.sqrt((normals * normals).sum(axis=0)) + np.float32(1e-6)
-        return self._fitted(normals)
+        return self._fitted(normals, points)
 
-    def _fitted(self, normals: NDArray[np.float32]) -> NDArray[np.float32]:
-        """Return the vertices, shape (3, N), whose faces have these normals."""
+    def _fitted(self, normals: NDArray[np.float32], guide: NDArray[np.float32]) -> NDArray[np.float32]:
+        """Return the vertices, shape (3, N), whose faces have these normals, which are those of a guide."""
         moved = self.engine.fit.fit(self._held, normals, self.is_free, self.unit)
         self._problem.constraints.apply(moved, self.points)
         step = moved - self.points
         is_far = np.sqrt((step * step).sum(axis=0)) > FARTHEST * self.unit
         moved[:, is_far] = self.points[:, is_far]
+        self._change = rms_motion(moved, guide, self._problem.blocks)
         self._tick()
         return moved
 
@@ -237,5 +242,5 @@ class _Run:
         self._done += (1 - self._done) * n_steps / self._n_left
         self._n_left -= n_steps
         callback = self._problem.callback
-        if callback is not None and callback(min(self._done, 1.0), 0.0):
+        if callback is not None and callback(min(self._done, 1.0), self._change):
             raise _Stopped

@@ -22,7 +22,7 @@ from ..transform import FrameTransform
 
 Callback = Callable[[float, float], bool]
 """`callback(fraction, change)`: share of the work done, 0 to 1, and rms motion of the last iteration in mean
-edge lengths; returns True to stop."""
+edge lengths, NaN before the first is done; returns True to stop."""
 
 
 @dataclass(frozen=True, eq=False)
