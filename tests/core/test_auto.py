@@ -202,10 +202,12 @@ def test_progress_rises_to_one(passes, rng):
     assert len(fractions) >= 8 * passes and max(np.diff(fractions)) < 0.2
     assert result.report.iterations == passes and not result.report.is_stopped
     # How far the last pass moved vertices from where the one before had left them; unknown before the first.
-    assert np.isnan(seen[0][1])
-    left = mesh.vertices if passes == 1 else denoise(mesh, AUTO.with_changes(passes=passes - 1)).vertices
-    moved = np.sqrt((lengths(result.vertices - left) ** 2).mean())
-    assert seen[-1][1] * result.report.mean_edge_length == pytest.approx(moved, rel=0.02)
+    changes = [change for _, change in seen]
+    assert np.isnan(changes[0]) and min(change for change in changes if not np.isnan(change)) > 0
+    if passes == 3:
+        left = denoise(mesh, AUTO.with_changes(passes=2)).vertices
+        moved = np.sqrt((lengths(result.vertices - left) ** 2).mean())
+        assert changes[-1] * result.report.mean_edge_length == pytest.approx(moved, rel=0.02)
 
 
 def test_a_run_that_is_stopped_gives_the_last_pass(rng):
