@@ -62,7 +62,8 @@ class NoiseBelief(NoiseEstimate):
     along : float
         What was taken away along the surface, root mean square in mean edge lengths.
     steps : str
-        "VOXELS" or "TERRACES" for exact steps, which are no noise but wide (see `find_steps`), else "".
+        "VOXELS" or "TERRACES" for exact steps, which may be meant (see `find_steps`), "ROUNDED" for
+        coordinates whose rounding was taken for wide noise, else "".
     """
 
     sigma_low: float

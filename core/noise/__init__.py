@@ -4,6 +4,16 @@
 
 from .estimate import NoiseEstimate, estimate_noise
 from .model import PAPER_SIGMA, add_noise
-from .steps import TERRACES, VOXELS, find_steps
+from .steps import ROUNDED, TERRACES, VOXELS, find_steps, rounding_noise
 
-__all__ = ["PAPER_SIGMA", "TERRACES", "VOXELS", "NoiseEstimate", "add_noise", "estimate_noise", "find_steps"]
+__all__ = [
+    "PAPER_SIGMA",
+    "ROUNDED",
+    "TERRACES",
+    "VOXELS",
+    "NoiseEstimate",
+    "add_noise",
+    "estimate_noise",
+    "find_steps",
+    "rounding_noise",
+]

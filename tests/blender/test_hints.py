@@ -111,7 +111,7 @@ def test_the_preset_for_voxels_rounds_them(make_object, capfd):
 
 
 def test_the_preset_for_terraces_takes_them_away(make_object, capfd):
-    obj = make_object(ground(), "Ground")
+    obj = make_object(ground(step=3.0), "Ground")  # twice the length of an edge: these may be meant
     flat = read_positions(obj.data)
     bpy.ops.object.framelet_denoise()
     assert "its heights are in whole steps: the preset Paper Tri-2" in capfd.readouterr().out

@@ -36,8 +36,15 @@ def test_wide_noise_and_what_may_be_some(command, write_ply, tmp_path, rng):
 def test_exact_steps(command, write_ply, tmp_path):
     flat = triangle_grid(60, 60)
     rows, columns = np.mgrid[:60, :60].astype(float)
-    heights = np.round(4 * np.sin(rows / 9) * np.cos(columns / 11))
-    ground = flat.with_vertices(np.stack((columns, rows, heights), axis=-1).reshape(-1, 3))
+    heights = 4 * np.sin(rows / 9) * np.cos(columns / 11)
+
+    def rounded(step):
+        points = np.stack((columns, rows, np.round(heights / step) * step), axis=-1)
+        return flat.with_vertices(points.reshape(-1, 3))
+
+    words, noise = denoised(command, write_ply, tmp_path, rounded(1.0))
+    assert noise["steps"] == "ROUNDED" and "wide in 100 % of the faces" in words
+    ground = rounded(3.0)
     words, noise = denoised(command, write_ply, tmp_path, ground)
     assert "clean already; its heights are in whole steps: --preset tri-2 takes them away." in words
     assert noise["steps"] == "TERRACES"

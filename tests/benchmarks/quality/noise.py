@@ -115,12 +115,11 @@ def spiky(surface: SurfaceMesh, seed: int, share: float, sigma: float) -> np.nda
 
 
 def quantized(surface: SurfaceMesh, seed: int, step: float, n_axes: int) -> np.ndarray:
-    """Return positions (N, 3) in whole steps along one axis, turned anyhow, or along all three."""
-    rng = np.random.default_rng(seed)
-    axes = np.linalg.qr(rng.normal(size=(3, 3)))[0]
-    steps = surface.vertices @ axes / (step * mean_edge_length(surface)) + rng.random(3)
-    error = (np.round(steps) - steps) * (np.arange(3) < n_axes) * (step * mean_edge_length(surface))
-    return (surface.vertices + error @ axes.T).astype(surface.vertices.dtype)
+    """Return positions (N, 3) in whole steps along the last axes, from places that depend on the seed."""
+    length, offset = step * mean_edge_length(surface), np.random.default_rng(seed).random(3)
+    positions = surface.vertices.copy()
+    positions[:, 3 - n_axes :] = ((np.round(positions / length + offset) - offset) * length)[:, 3 - n_axes :]
+    return positions
 
 
 NOISES: Mapping[str, Callable[[SurfaceMesh, int], np.ndarray]] = {
