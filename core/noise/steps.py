@@ -91,14 +91,16 @@ def rounding_noise(surface: SurfaceMesh) -> float:
     >>> rounding_noise(ground(3 * np.sin(rows / 9)))
     0.0
     """
-    edge = mean_edge_length(surface)
+    if surface.n_faces < LEAST_FACES:
+        return 0.0
+    steps = np.array([_step_of(column) for column in surface.vertices.T])
+    if np.count_nonzero(steps) in (0, 2):
+        return 0.0
+    steps /= mean_edge_length(surface)
     vectors, area, axis = _aligned(surface)
     total = area.sum()
     # What is made of planes along the axes is a box, or voxels that may be meant.
-    if surface.n_faces < LEAST_FACES or not area[axis == 3].sum() > LEAST_SLOPES * total:
-        return 0.0
-    steps = np.array([_step_of(column) for column in surface.vertices.T]) / edge
-    if np.count_nonzero(steps) == 2 or steps.max() > WIDEST_STEP:
+    if steps.max() > WIDEST_STEP or not area[axis == 3].sum() > LEAST_SLOPES * total:
         return 0.0
     along = (vectors * vectors / np.maximum(area, np.finfo(float).tiny)[:, None]).sum(axis=0) / total
     return float(np.sqrt((steps * steps * along).sum() / 12))
@@ -107,8 +109,12 @@ def rounding_noise(surface: SurfaceMesh) -> float:
 def _aligned(
     surface: SurfaceMesh,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.intp]]:
-    """Return vector areas without signs (F, 3), areas (F,), and the axis that each face looks along, or 3."""
+    """Return vector areas without signs (F, 3), areas (F,), and the axis that each face looks along, or 3.
+
+    The largest coordinate of an area is 1.
+    """
     vectors = np.abs(face_area_vectors(surface))
+    vectors /= max(vectors.max(initial=0.0), np.finfo(float).tiny)
     area = np.sqrt((vectors * vectors).sum(axis=1))
     return vectors, area, np.where(vectors.max(axis=1) > ALIGNED * area, vectors.argmax(axis=1), 3)
 
