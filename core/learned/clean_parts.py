@@ -19,6 +19,7 @@ from ..mesh.connected_components import connected_components
 from ..mesh.connectivity import Connectivity
 from ..mesh.ragged import Ragged
 from ..mesh.surface_mesh import SurfaceMesh
+from ..noise.estimate import LEAST_DEGREES_OF_FREEDOM
 from ..noise.fits import fit_heights
 from ..noise.patches import find_patches, local_adjacency, spread_sample
 from .face_graph import FaceGraph, Polygons
@@ -49,9 +50,6 @@ SOME_CLEAN = 0.03
 
 MOSTLY_CLEAN = 0.25
 """Share of clean two-rings around a vertex from which it stays: fits fail at creases of clean meshes too."""
-
-LEAST_DEGREES_OF_FREEDOM = 3.0
-"""Degrees of freedom of a fit that says something."""
 
 LEAST_KNOWN = 0.2
 """Share of two-rings that have to be known around a vertex."""

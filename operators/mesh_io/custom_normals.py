@@ -163,12 +163,12 @@ def _shaded_as_one(normals: NDArray[np.float32], surface: SurfaceMesh) -> NDArra
 
 
 def _angle(first: NDArray[np.floating], second: NDArray[np.floating]) -> float:
-    """Return the mean angle between unit vectors, shape (C, 3) each, in radians."""
+    """Return the mean angle between unit vectors, shape (C, 3) each, in degrees."""
     import numpy as np
 
-    # By the chord: the cosine of a small angle has no digits.
-    chord = np.sqrt(np.square(first - second).sum(axis=1))
-    return float(2.0 * np.arcsin(np.minimum(0.5 * chord, 1.0)).mean())
+    from ...core.metrics import normal_angles
+
+    return float(np.nan_to_num(normal_angles(first, second)).mean())
 
 
 def _turned(
