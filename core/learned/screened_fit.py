@@ -20,14 +20,8 @@ from numpy.typing import NDArray
 from ..averages.means import Means, padded
 from ..averages.ring_means import RingMeans
 from .face_graph import FaceGraph, Polygons
-from .symmetric import ENTRIES, ROWS
+from .normal_equations import NormalEquations
 from .unfolding import ROUNDS, doubled_areas, unfolded_points
-
-NORMAL_PULL = 0.006
-TANGENT_PULL = 0.1
-
-LOWEST, HIGHEST = 0.05, 1.12
-"""Eigenvalues that Chebyshev steps are made for. Lower ones belong to wide shapes, which hardly change."""
 
 STEPS = 12
 """Steps of a fit from the noisy positions."""
@@ -137,117 +131,16 @@ class ScreenedFit:
         is_free: NDArray[np.bool_] | None,
     ) -> NDArray[np.float32]:
         """Return the positions after some Chebyshev steps from `points`, where the vertices are held."""
-        graph, at_vertex = self._graph, self._at_vertex
-        n_vertices = points.shape[1]
-        rows = at_vertex.inward(padded(points))
-        pulls = np.zeros((graph.n_faces, 4), np.float32)
-        arms = np.zeros((graph.n_faces, 4), np.float32)  # w n, and w <n, c> for centroids c
-        matrix = np.zeros((6, n_vertices), np.float32)
-        residual = np.zeros((n_vertices, 4), np.float32)
-
-        def project(field: NDArray[np.float32], keep: NDArray[np.float32] | None) -> None:
-            for group, corners in zip(graph.groups, self._corners, strict=True):
-                share = np.float32(1.0 / len(corners))
-
-                def kernel(
-                    start: int,
-                    stop: int,
-                    group: Polygons = group,
-                    corners: NDArray[np.int32] = corners,
-                    share: np.float32 = share,
-                ) -> None:
-                    middle = field.take(corners[0, start:stop], axis=0)
-                    for corner in corners[1:, start:stop]:
-                        middle += field.take(corner, axis=0)
-                    middle *= share
-                    faces = slice(group.begin + start, group.begin + stop)
-                    normal = normals[:, faces]
-                    along = normal[0] * middle[:, 0]
-                    along += normal[1] * middle[:, 1]
-                    along += normal[2] * middle[:, 2]
-                    along *= weights[faces]
-                    if keep is not None:
-                        keep[faces, 3] = along
-                        for axis in range(3):
-                            np.multiply(normal[axis], weights[faces], out=keep[faces, axis])
-                    else:
-                        for axis in range(3):
-                            np.multiply(normal[axis], along, out=pulls[faces, axis])
-
-                graph.blocks.run(kernel, group.end - group.begin)
-
-        project(rows, arms)
-        plain = padded(normals)
-
-        def begin(part: slice, members: NDArray[np.int32]) -> None:
-            if not len(members):
-                return
-            share = np.float32(1.0 / len(members))
-            weighted = np.ascontiguousarray(np.moveaxis(arms.take(members, axis=0), 2, 0))
-            normal = np.ascontiguousarray(np.moveaxis(plain.take(members, axis=0), 2, 0)[:3])
-            along = weighted[3].copy()
-            for axis in range(3):
-                along -= weighted[axis] * rows[part, axis]
-            mean = normal.sum(axis=1)
-            length = (mean * mean).sum(axis=0)
-            np.divide(mean, np.sqrt(np.maximum(length, np.float32(1e-12))), out=mean)
-            for axis in range(3):
-                residual[part, axis] = (normal[axis] * along).sum(axis=0) * share
-            for entry, (i, j) in enumerate(ENTRIES):
-                own = (weighted[i] * normal[j]).sum(axis=0)
-                own *= share
-                own += np.float32(NORMAL_PULL - TANGENT_PULL) * mean[i] * mean[j]
-                if i == j:
-                    own += np.float32(TANGENT_PULL)
-                matrix[entry, part] = own
-
-        at_vertex.for_parts(begin)
-        free = None
-        if is_free is not None:
-            # Rows of what is held are 0 in all steps.
-            free = np.repeat(at_vertex.inward(is_free).astype(np.float32)[:, None], 4, axis=1)
-            residual *= free
-        middle, half = np.float32((HIGHEST + LOWEST) / 2), np.float32((HIGHEST - LOWEST) / 2)
-        step = residual / middle
-        total = step.copy()
-        rho = half / middle
-        for _ in range(n_steps - 1):
-            project(step, None)
-            following = np.float32(1) / (2 * middle / half - rho)
-            keep, gain = np.float32(following * rho), np.float32(2 * following / half)
-
-            def advance(
-                part: slice,
-                means: NDArray[np.float32],
-                step: NDArray[np.float32] = step,
-                keep: np.float32 = keep,
-                gain: np.float32 = gain,
-            ) -> None:
-                own = np.ascontiguousarray(step[part].T)
-                for axis, entries in enumerate(ROWS):
-                    product = matrix[entries[0], part] * own[0]
-                    product += matrix[entries[1], part] * own[1]
-                    product += matrix[entries[2], part] * own[2]
-                    means[:, axis] -= product
-                means += residual[part]
-                if free is not None:
-                    means *= free[part]
-                residual[part] = means
-                means *= gain
-                means += keep * step[part]
-                step[part] = means
-                total[part] += means
-
-            # Faces have been read before any vertex is written.
-            at_vertex.visit(pulls, advance)
-            rho = following
-        result = np.empty_like(points)
+        equations = NormalEquations(
+            self._graph, self._at_vertex, self._corners, points, normals, weights, is_free
+        )
+        total, result = equations.solved(n_steps), np.empty_like(points)
 
         def move(start: int, stop: int) -> None:
-            moved = total.take(at_vertex.place[start:stop], axis=0)
+            moved = total.take(self._at_vertex.place[start:stop], axis=0)
             np.add(points[:, start:stop], moved[:, :3].T, out=result[:, start:stop])
 
-        graph.blocks.run(move, n_vertices)
+        self._graph.blocks.run(move, points.shape[1])
         return result
 
     def _without_outliers(

@@ -8,7 +8,7 @@ from checks import assert_same_bits
 from framelet.core import connect
 from framelet.core.averages.ring_means import RingMeans
 from framelet.core.blocks import Blocks
-from framelet.core.learned import screened_fit, unfolding
+from framelet.core.learned import normal_equations, screened_fit, unfolding
 from framelet.core.learned.engine import FaceEngine, long_edges
 from framelet.core.mesh.geometry import fan_areas
 from kinds import ALONE, KIND, KINDS
@@ -64,7 +64,9 @@ def expected_fit(mesh, normals, n_steps, held=(), weights=None):
     free = np.repeat(~np.isin(np.arange(mesh.n_vertices), held) & (valence > 0), 3)
     form, gradient = form[np.ix_(free, free)], gradient[free]
     scale = np.repeat(2 * valence, 3)[free]
-    own, values = chebyshev_steps(form, gradient, scale, n_steps, screened_fit.LOWEST, screened_fit.HIGHEST)
+    own, values = chebyshev_steps(
+        form, gradient, scale, n_steps, normal_equations.LOWEST, normal_equations.HIGHEST
+    )
     best = -np.linalg.lstsq(form, gradient, rcond=None)[0]
     energies = [0.5 * x @ form @ x + gradient @ x for x in (0 * own, own, best)]
     motion = np.zeros(3 * mesh.n_vertices)
@@ -90,7 +92,7 @@ def test_the_fit_is_a_polynomial_in_the_dense_problem(name, is_held, rng):
     assert np.abs(found.T - expected).max() < SINGLE
     assert_same_bits(found[:, held], points[:, held])
     assert_same_bits(points, given)
-    assert values.max() < screened_fit.HIGHEST
+    assert values.max() < normal_equations.HIGHEST
     assert best <= after <= before + 1e-12
     if is_free.any() and mesh.n_faces > 1:
         assert after - best < 0.05 * (before - best)
