@@ -32,6 +32,7 @@ N_SAMPLES = 4096
 
 PAIRS_OF_SCALES = ((0, 1), (1, 2), (2, 3), (0, 2), (1, 3), (0, 3))
 
+N_BANDS = N_SCALES - 1
 N_SPREAD = 8
 N_GLOBAL = 16
 N_RESIDUAL = 2
@@ -117,15 +118,39 @@ def find_features(
     measured : Measured, optional
         Whose faces count for what is known of islands; by default all.
     """
-    n_bands = N_SCALES - 1
+    pairs, jumps = _pair_features(scales, graph)
+    energies, is_flat = _energies(scales, graph, jumps)
+    counted = counted_faces(island, measured)
+    quantiles = np.array([quantiles_of(energies[own], is_flat[own]) for own in counted])
+    quantiles += np.float32(log_strength) * _BY_STRENGTH
+    before = _before(scales, graph, residual)
+    means = np.array([before[own].sum(axis=0) / max(len(is_flat[own]), 1) for own in counted], np.float32)
+    around = rings.inward(at_vertex.outward(at_vertex.mean(energies)))
+    around = rings.outward(rings.averaged(around, SPREAD_AVERAGES))
+
+    def block(faces: slice, polygons: Polygons) -> NDArray[np.float32]:
+        result = np.empty((faces.stop - faces.start, N_FACE), np.float32)
+        end = N_FACE - N_SPREAD - N_GLOBAL - N_RESIDUAL
+        _face_scalars(scales, faces, result[:, :end])
+        result[:, end : end + N_SPREAD] = _spread(around, polygons, log_strength)
+        of_island = quantiles if island is None else quantiles[island[faces]]
+        result[:, end + N_SPREAD : -N_RESIDUAL] = of_island
+        result[:, -N_RESIDUAL:] = before[faces]
+        return result
+
+    return Features(pairs, np.concatenate((quantiles, means), axis=1), island, block, graph)
+
+
+def _pair_features(scales: Scales, graph: FaceGraph) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Return the inputs of pairs (P + 1, N_EDGE), and their jump energies, shape (P + 1, 4)."""
     pairs = np.zeros((graph.n_pairs + 1, N_EDGE), np.float32)
-    jumps = np.empty((graph.n_pairs + 1, 4), np.float32)
+    jumps = np.empty((graph.n_pairs + 1, 4), np.float32)  # the last column makes looking up faster
     jumps[-1] = np.log(FLOOR)
     jumps[:, 3] = 0
     normals, centroids = scales.normals, scales.centroids
     area = scales.areas[:, 0].copy()  # `take` would copy all of a strided array for every block
 
-    def across(start: int, stop: int) -> None:
+    def kernel(start: int, stop: int) -> None:
         one, two = graph.first[start:stop], graph.second[start:stop]
         unit = np.float32(0.5) * (scales.length.take(one) + scales.length.take(two))
         bend = np.zeros((stop - start, N_SCALES), np.float32)
@@ -147,7 +172,7 @@ def find_features(
             offset += normal_one
         jump += FLOOR
         np.log(jump, out=jump)
-        jumps[start:stop, :n_bands] = jump[:, :n_bands]
+        jumps[start:stop, :N_BANDS] = jump[:, :N_BANDS]
         # Faces in the same place, as doubled ones are, lie in no direction from each other.
         np.maximum(distance, (np.float32(1e-3) * unit[:, None]) ** 2 + np.float32(1e-20), out=distance)
         np.sqrt(distance, out=distance)
@@ -156,91 +181,99 @@ def find_features(
         ratio = np.log((area.take(one) + FLOOR) / (area.take(two) + FLOOR))
         part[:, 0] = np.log(distance[:, 0] / unit + np.float32(0.01))
         part[:, 1] = np.abs(ratio, out=ratio)
-        part[:, 2 : 2 + n_bands] = bend[:, :n_bands]
-        part[:, 2 + n_bands :] = energy(offset[:, :2] / unit[:, None])
+        part[:, 2 : 2 + N_BANDS] = bend[:, :N_BANDS]
+        part[:, 2 + N_BANDS :] = energy(offset[:, :2] / unit[:, None])
 
-    graph.for_pairs(across)
-    spread = np.empty((graph.n_faces, N_SPREAD), np.float32)
+    graph.for_pairs(kernel)
+    return pairs, jumps
+
+
+def _heights(scales: Scales, faces: slice) -> NDArray[np.float32]:
+    """Return <V_(s+1), c_s - c_(s+1)> of some faces in local units, shape (n, S); 0 for the widest scale."""
+    height = np.zeros((faces.stop - faces.start, N_SCALES), np.float32)
+    for axis in range(3):
+        center = scales.centroids[axis, faces]
+        step = np.zeros_like(height)
+        step[:, :-1] = center[:, :-1] - center[:, 1:]
+        step[:, :-1] *= scales.normals[axis, faces, 1:]
+        height += step
+    height /= scales.length[faces, None]
+    return height
+
+
+def _energies(
+    scales: Scales, graph: FaceGraph, jumps: NDArray[np.float32]
+) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
+    """Return energies of faces, and which faces are flat, shape (F,).
+
+    The energies, shape (F, N_SPREAD), are those of jumps, of heights, and squares of the finest of both.
+    """
+    energies = np.empty((graph.n_faces, N_SPREAD), np.float32)
     is_flat = np.empty(graph.n_faces, bool)
 
-    def heights_of(block: slice) -> NDArray[np.float32]:
-        height = np.zeros((block.stop - block.start, N_SCALES), np.float32)
-        for axis in range(3):
-            center = centroids[axis, block]
-            step = np.zeros_like(height)
-            step[:, :-1] = center[:, :-1] - center[:, 1:]
-            step[:, :-1] *= normals[axis, block, 1:]
-            height += step
-        height /= scales.length[block, None]
-        return height
-
-    def energies_at(block: slice, polygons: Polygons) -> None:
-        height = heights_of(block)
+    def kernel(faces: slice, polygons: Polygons) -> None:
+        height = _heights(scales, faces)
         around = jumps.take(polygons.pairs, axis=0)
-        energies = around.reshape(len(around), -1).sum(axis=0).reshape(-1, 4)
-        energies *= np.float32(1.0 / len(around))
+        mean = around.reshape(len(around), -1).sum(axis=0).reshape(-1, 4)
+        mean *= np.float32(1.0 / len(around))
         heights = energy(height)
-        own = spread[block]
-        own[:, :n_bands] = energies[:, :n_bands]
-        own[:, n_bands : 2 * n_bands] = heights[:, :n_bands]
-        own[:, -2] = energies[:, 0] ** 2
+        own = energies[faces]
+        own[:, :N_BANDS] = mean[:, :N_BANDS]
+        own[:, N_BANDS : 2 * N_BANDS] = heights[:, :N_BANDS]
+        own[:, -2] = mean[:, 0] ** 2
         own[:, -1] = heights[:, 0] ** 2
-        is_flat[block] = (around[..., 0].max(axis=0) < np.log(2 * FLOOR)) & (
+        is_flat[faces] = (around[..., 0].max(axis=0) < np.log(2 * FLOOR)) & (
             np.abs(height[:, 0]) < np.float32(1e-3)
         )
 
-    graph.for_faces(energies_at)
-    counted = counted_faces(island, measured)
-    quantiles = np.array([quantiles_of(spread[own], is_flat[own]) for own in counted])
-    stronger = quantiles + np.float32(log_strength) * _BY_STRENGTH
+    graph.for_faces(kernel)
+    return energies, is_flat
+
+
+def _before(scales: Scales, graph: FaceGraph, residual: Residual | None) -> NDArray[np.float32]:
+    """Return what the pass before took away around each face, shape (F, N_RESIDUAL); 0 in a first pass."""
     before = np.zeros((graph.n_faces, N_RESIDUAL), np.float32)
-    if residual is not None:
+    if residual is None:
+        return before
 
-        def recall(block: slice, polygons: Polygons) -> None:
-            strength = residual.strength.take(polygons.corners).mean(axis=0) / scales.length[block]
-            before[block, 0] = energy(strength) / 4 + 1  # 0, as in a first pass, for a usual strength
-            before[block, 1] = 2 * residual.correlation.take(polygons.corners).mean(axis=0)
+    def kernel(faces: slice, polygons: Polygons) -> None:
+        strength = residual.strength.take(polygons.corners).mean(axis=0) / scales.length[faces]
+        before[faces, 0] = energy(strength) / 4 + 1  # 0, as in a first pass, for a usual strength
+        before[faces, 1] = 2 * residual.correlation.take(polygons.corners).mean(axis=0)
 
-        graph.for_faces(recall)
-    means = np.array([before[own].sum(axis=0) / max(len(is_flat[own]), 1) for own in counted], np.float32)
-    context = np.concatenate((stronger, means), axis=1)
-    at_faces = rings.inward(at_vertex.outward(at_vertex.mean(spread)))
-    at_faces = rings.outward(rings.averaged(at_faces, SPREAD_AVERAGES))
+    graph.for_faces(kernel)
+    return before
 
-    def collect(block: slice, polygons: Polygons) -> NDArray[np.float32]:
-        n = block.stop - block.start
-        faces = np.empty((n, N_FACE), np.float32)
-        unit, height = scales.length[block], heights_of(block)
-        faces[:, :n_bands] = height[:, :n_bands]
-        faces[:, n_bands : 2 * n_bands] = energy(height)[:, :n_bands]
-        for column, (one, two) in enumerate(PAIRS_OF_SCALES, 2 * n_bands):
-            apart = np.zeros(n, np.float32)
-            for axis in range(3):
-                step = normals[axis, block, one] - normals[axis, block, two]
-                step *= step
-                apart += step
-            apart += FLOOR
-            faces[:, column] = np.log(apart)
-        column = 2 * n_bands + len(PAIRS_OF_SCALES)
-        faces[:, column] = np.log(area[block] / (unit * unit) + np.float32(0.01))
-        corners = at_faces.take(polygons.corners, axis=0)
-        total = corners.reshape(len(corners), -1).sum(axis=0).reshape(-1, N_SPREAD)
-        total *= np.float32(1.0 / len(corners))
-        # The two second moments become deviations.
-        for moment, mean in ((-2, 0), (-1, n_bands)):
-            variance = total[:, moment] - total[:, mean] ** 2
-            total[:, moment] = np.sqrt(np.maximum(variance, 0))
-        if log_strength:
-            total[:, :2] += np.float32(2 * log_strength)
-            total[:, n_bands : 2 * n_bands] += np.float32(log_strength)
-        faces[:, column + 1 : column + 1 + N_SPREAD] = total
-        faces[:, column + 1 + N_SPREAD : -N_RESIDUAL] = (
-            stronger if island is None else stronger[island[block]]
-        )
-        faces[:, -N_RESIDUAL:] = before[block]
-        return faces
 
-    return Features(pairs, context, island, collect, graph)
+def _face_scalars(scales: Scales, faces: slice, out: NDArray[np.float32]) -> None:
+    """Write heights, energies of them and of V_a - V_b for pairs of scales, and the logarithm of the area."""
+    unit, height, normals = scales.length[faces], _heights(scales, faces), scales.normals
+    out[:, :N_BANDS] = height[:, :N_BANDS]
+    out[:, N_BANDS : 2 * N_BANDS] = energy(height)[:, :N_BANDS]
+    for column, (one, two) in enumerate(PAIRS_OF_SCALES, 2 * N_BANDS):
+        apart = np.zeros(len(out), np.float32)
+        for axis in range(3):
+            step = normals[axis, faces, one] - normals[axis, faces, two]
+            step *= step
+            apart += step
+        apart += FLOOR
+        out[:, column] = np.log(apart)
+    out[:, -1] = np.log(scales.areas[faces, 0] / (unit * unit) + np.float32(0.01))
+
+
+def _spread(around: NDArray[np.float32], polygons: Polygons, log_strength: float) -> NDArray[np.float32]:
+    """Return energies of the surroundings of some faces, shape (n, N_SPREAD), by those at their corners."""
+    corners = around.take(polygons.corners, axis=0)
+    total = corners.reshape(len(corners), -1).sum(axis=0).reshape(-1, N_SPREAD)
+    total *= np.float32(1.0 / len(corners))
+    # The two second moments become deviations.
+    for moment, mean in ((-2, 0), (-1, N_BANDS)):
+        variance = total[:, moment] - total[:, mean] ** 2
+        total[:, moment] = np.sqrt(np.maximum(variance, 0))
+    if log_strength:
+        total[:, :2] += np.float32(2 * log_strength)
+        total[:, N_BANDS : 2 * N_BANDS] += np.float32(log_strength)
+    return total
 
 
 _BY_STRENGTH = np.array([2] * 6 + [0] * 3 + [1] * 6 + [0], np.float32)
@@ -254,15 +287,14 @@ def quantiles_of(
 
     They are those of at most `n_samples` faces.
     """
-    n_bands = N_SCALES - 1
     counted = np.flatnonzero(~is_flat)
     share = len(counted) / max(len(is_flat), 1)
     if not len(counted):
         counted = np.arange(min(len(is_flat), 1))
     # Evenly spread, so that the sample does not depend on chance.
     chosen = counted[np.linspace(0, len(counted) - 1, min(len(counted), n_samples)).astype(np.intp)]
-    ordered = np.sort(energies[chosen][:, : 2 * n_bands], axis=0)
+    ordered = np.sort(energies[chosen][:, : 2 * N_BANDS], axis=0)
     last = len(ordered) - 1
-    jumps = ordered[[round(q * last) for q in (0.25, 0.5, 0.75)], :n_bands]
-    heights = ordered[[round(q * last) for q in (0.5, 0.9)], n_bands:]
+    jumps = ordered[[round(q * last) for q in (0.25, 0.5, 0.75)], :N_BANDS]
+    heights = ordered[[round(q * last) for q in (0.5, 0.9)], N_BANDS:]
     return np.array([*jumps.T.ravel(), *heights.T.ravel(), np.log(share + 0.01)], np.float32)
