@@ -5,14 +5,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import fields
 from typing import Any
 
 from numpy.typing import ArrayLike
 
 from .errors import MeshError, SettingError
 from .mesh.surface_mesh import SurfaceMesh
-from .settings import PRESETS, DenoiseSettings
+from .settings import INFOS, PRESETS, DenoiseSettings, check_counts, check_used
 from .value_checks import check_choice, shown
 
 
@@ -57,7 +56,8 @@ def as_settings(
     Raises
     ------
     SettingError
-        If a name is not known, a value is not allowed, or the method does not use it.
+        If a name is not known, a value is not allowed, or a value given by name has no effect: the method
+        does not use it, or another setting replaces it.
 
     Examples
     --------
@@ -80,11 +80,14 @@ def as_settings(
         key = as_identifier(name) if isinstance(name, str) else name
         check_choice("The preset", key, PRESETS)
         base = PRESETS[key].settings
-    infos = {item.name: item.metadata["info"] for item in fields(DenoiseSettings)}
     changes = dict(values)
     for each, value in changes.items():
-        if each not in infos:
-            raise SettingError(f"There is no setting {each}; choose from {', '.join(infos)}.")
-        if infos[each].choices and isinstance(value, str):
+        if each not in INFOS:
+            raise SettingError(f"There is no setting {each}; choose from {', '.join(INFOS)}.")
+        if INFOS[each].choices and isinstance(value, str):
             changes[each] = as_identifier(value)
-    return base.with_changes(**changes)
+    found = base.with_changes(**changes)
+    for each, value in changes.items():  # what was given by name counts, the default value too
+        check_used(INFOS[each], found.method, each, value)
+        check_counts(found, each)
+    return found

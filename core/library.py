@@ -84,7 +84,7 @@ def denoise(
     settings : DenoiseSettings, optional
         The method and its parameters; by default those of the preset AUTO.
     preset : str, optional
-        Name of a preset, in any case, such as "auto", "scan" or "tri-2".
+        Name of a preset, in any case: one of `PRESETS`, such as "auto", "free-form" or "tri-2".
     offsets : array_like of int, shape (F + 1,), optional
         First corner of each face, and the number of corners: `faces` is then the flat list of all corners.
     movable : array_like, shape (N,), bool, optional
@@ -94,7 +94,9 @@ def denoise(
     full_output : bool, optional
         Whether to return positions and report; by default so for a `SurfaceMesh`.
     **values
-        Fields of `DenoiseSettings`; choices in any case. The frame may be a `FilterBank` of your own.
+        Fields of `DenoiseSettings`; choices in any case. The frame may be a `FilterBank` of your own. A value
+        without effect is an error, the default value too: the method does not use it, or another setting
+        replaces it, as the tuning "noise" does λ.
 
     Returns
     -------

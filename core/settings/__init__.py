@@ -3,15 +3,20 @@
 """What can be set: methods, frames, presets, their ranges and words."""
 
 from .choices import METHODS
-from .denoise_settings import DEFAULT_PRESET, PRESETS, DenoiseSettings, check_setting, used_settings
+from .denoise_settings import DEFAULT_PRESET, INFOS, PRESETS, DenoiseSettings, check_setting, used_settings
+from .effects import check_counts, check_used, replaced_by
 from .setting_info import SettingInfo
 
 __all__ = [
     "DEFAULT_PRESET",
+    "INFOS",
     "METHODS",
     "PRESETS",
     "DenoiseSettings",
     "SettingInfo",
+    "check_counts",
     "check_setting",
+    "check_used",
+    "replaced_by",
     "used_settings",
 ]

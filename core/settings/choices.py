@@ -70,5 +70,10 @@ BOUNDARIES = (
         "Along",
         "Boundaries are smoothed along themselves and are not pulled inwards; corners keep their place",
     ),
-    Choice("FREE", "Free", "Boundary vertices move like all others, so that open borders shrink"),
+    Choice(
+        "FREE",
+        "Free",
+        "Boundary vertices move like all others, so that open borders shrink, but not with Automatic, which "
+        "treats them as Along does",
+    ),
 )

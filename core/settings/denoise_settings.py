@@ -12,8 +12,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from typing import Any, NamedTuple
 
-from ..errors import SettingError
 from .choices import BOUNDARIES, FRAMES, METHODS, NOISES, SHRINKAGES, STENCILS, TUNINGS
+from .effects import check_used
 from .setting_info import SettingInfo as SettingInfo
 from .setting_info import check_value
 from .setting_info import setting_field as _setting
@@ -187,12 +187,8 @@ give method="POSITIONS".
         for item in fields(self):
             info, value = item.metadata["info"], getattr(self, item.name)
             check_value(info, str(item.type), value)
-            if value != item.default and not info.has_effect(self.method):
-                shown = f"{value:g}" if isinstance(value, int | float) else repr(value)
-                raise SettingError(
-                    f"{item.name} is {shown}, but the method {self.method} does not use it; leave it out, or "
-                    f'give method="{info.methods[0]}".'
-                )
+            if value != item.default:
+                check_used(info, self.method, item.name, value)
 
     def with_changes(self, **changes: Any) -> DenoiseSettings:
         """Return a copy with some fields changed.
@@ -205,10 +201,14 @@ give method="POSITIONS".
         return replace(self, **changes)
 
 
+INFOS: Mapping[str, SettingInfo] = {item.name: item.metadata["info"] for item in fields(DenoiseSettings)}
+"""What is known of each setting, by name."""
+
+
 def check_setting(name: str, value: Any) -> None:
     """Raise SettingError, in one sentence, unless a value is allowed for a setting, whatever the method."""
     item = next(item for item in fields(DenoiseSettings) if item.name == name)
-    check_value(item.metadata["info"], str(item.type), value)
+    check_value(INFOS[name], str(item.type), value)
 
 
 def used_settings(values: Mapping[str, Any]) -> dict[str, Any]:
@@ -222,8 +222,7 @@ def used_settings(values: Mapping[str, Any]) -> dict[str, Any]:
     {'method': 'BILATERAL', 'sigma_c': 2.0}
     """
     method = values.get("method", DenoiseSettings.method)
-    infos = {item.name: item.metadata["info"] for item in fields(DenoiseSettings)}
-    return {name: value for name, value in values.items() if infos[name].has_effect(method)}
+    return {name: value for name, value in values.items() if INFOS[name].has_effect(method)}
 
 
 class Preset(NamedTuple):

@@ -20,9 +20,10 @@ from ...core.settings import (
     DenoiseSettings,
     SettingInfo,
     check_setting,
+    replaced_by,
     used_settings,
 )
-from ..properties.setting_values import has_effect, is_replaced
+from ..properties.setting_values import has_effect
 from .messages import USAGE_ERROR, CommandError
 
 LONGEST_LIST = 60
@@ -98,13 +99,16 @@ def settings_from(arguments: argparse.Namespace) -> DenoiseSettings:
     for name in changes:
         if not has_effect(values["method"], name):
             raise CommandError(_says_unused(name, arguments.preset, arguments.method), USAGE_ERROR)
-        if is_replaced(values["method"], values["tuning"], name):
+    settings = DenoiseSettings(**used_settings(values))
+    for name in changes:
+        entry = replaced_by(settings, name)
+        if entry is not None:
+            other = f"{option_name(entry.beside)} {as_word(getattr(settings, entry.beside))}"
             raise CommandError(
-                f"{option_name(name)} has no effect with --tuning noise, which takes it from the measured "
-                "noise; leave one of them out.",
+                f"{option_name(name)} has no effect with {other}, {entry.reason}; leave one of them out.",
                 USAGE_ERROR,
             )
-    return DenoiseSettings(**used_settings(values))
+    return settings
 
 
 def _says_unused(name: str, preset: str, method: str | None) -> str:

@@ -9,10 +9,9 @@ refer to outlives Python, and the module bpy crashes when it does.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
-from ...core.settings import DEFAULT_PRESET, PRESETS, DenoiseSettings, used_settings
+from ...core.settings import DEFAULT_PRESET, INFOS, PRESETS, DenoiseSettings, used_settings
 from .region_values import REGION_NAMES, as_typed
 
 if TYPE_CHECKING:
@@ -24,16 +23,11 @@ DEFINING = ("method", "frame", "stencil", "shrinkage")
 """The settings that make the algorithm; one that is used and differs from the preset's makes it a custom
 combination."""
 
-TUNED_NAMES = ("lambda_", "mu", "iterations")
-"""The settings that the tuning NOISE replaces by values of its own."""
-
-SETTING_NAMES = tuple(item.name for item in fields(DenoiseSettings))
+SETTING_NAMES = tuple(INFOS)
 PROPERTY_NAMES = ("preset", *SETTING_NAMES)
 
 FRAME_NAMES = ("frame", "stencil", "levels", "boundary")
 """The settings of the frame transform itself."""
-
-_INFO = {item.name: item.metadata["info"] for item in fields(DenoiseSettings)}
 
 # True while a preset fills the fields, so that their own updates do not answer.
 _is_filling = False
@@ -41,12 +35,7 @@ _is_filling = False
 
 def has_effect(method: str, name: str) -> bool:
     """Tell whether a setting is used by a method."""
-    return name not in _INFO or _INFO[name].has_effect(method)
-
-
-def is_replaced(method: str, tuning: str, name: str) -> bool:
-    """Tell whether a method uses a setting but takes its value from the measured noise."""
-    return tuning == "NOISE" and has_effect(method, "tuning") and name in TUNED_NAMES
+    return name not in INFOS or INFOS[name].has_effect(method)
 
 
 def is_filling() -> bool:

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 from bpy.app.translations import pgettext_iface as iface_
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ...core.settings import METHODS, PRESETS
+from ...core.settings import METHODS, PRESETS, replaced_by
 from .region_values import REGION_NAMES, as_typed, shown_region_names
-from .setting_values import CUSTOM, SETTING_NAMES, has_effect, is_replaced
+from .setting_values import CUSTOM, SETTING_NAMES, has_effect
 
 if TYPE_CHECKING:
     from ...core.settings import DenoiseSettings
@@ -55,13 +55,13 @@ def unused_sentences(operator: Any, settings: DenoiseSettings) -> list[str]:
                 engine=iface_(label), names=", ".join(unused), argument=_remedy(operator, unused)
             )
         )
-    replaced = [name for name in changed if is_replaced(settings.method, settings.tuning, name)]
-    if replaced:
-        sentences.append(
-            rpt_('tuning="NOISE" replaces {names} by values from the measured noise.').format(
-                names=", ".join(replaced)
+    for name in changed:
+        entry = replaced_by(settings, name)
+        if entry is not None:
+            argument = f'{entry.beside}="{getattr(settings, entry.beside)}"'
+            sentences.append(
+                rpt_("{name} has no effect with {argument}.").format(name=name, argument=argument)
             )
-        )
     shown = shown_region_names(operator)
     for name in REGION_NAMES:
         default = rna.bl_rna.properties[name].default

@@ -6,7 +6,7 @@ from dataclasses import fields
 
 import bpy
 import pytest
-from framelet.core.settings import DEFAULT_PRESET, PRESETS, DenoiseSettings, used_settings
+from framelet.core.settings import DEFAULT_PRESET, PRESETS, DenoiseSettings, replaced_by, used_settings
 from framelet.operators.properties import setting_values as module
 from framelet.operators.properties.settings import FrameletSettings
 
@@ -238,8 +238,10 @@ def test_a_method_hides_what_it_does_not_use():
         assert module.has_effect("POSITIONS", name) and module.has_effect("BILATERAL", name)
 
 
-def test_the_noise_replaces_three_settings_of_one_method():
+def test_the_noise_replaces_three_settings_of_one_method(scene_settings):
     for method in ("AUTO", "POSITIONS", "BILATERAL"):
-        replaced = [name for name in FIELDS if module.is_replaced(method, "NOISE", name)]
+        scene_settings.method, scene_settings.tuning = method, "NOISE"
+        replaced = [name for name in FIELDS if replaced_by(scene_settings, name)]
         assert replaced == (["lambda_", "mu", "iterations"] if method == "POSITIONS" else [])
-        assert not any(module.is_replaced(method, "GIVEN", name) for name in FIELDS)
+        scene_settings.tuning = "GIVEN"
+        assert not any(replaced_by(scene_settings, name) for name in FIELDS)

@@ -53,7 +53,15 @@ def warnings(make_object, capfd):
         ),
         (
             {"preset": "TRI_2", "tuning": "NOISE", "lambda_": 0.4},
-            'tuning="NOISE" replaces lambda_ by values from the measured noise.',
+            'lambda_ has no effect with tuning="NOISE".',
+        ),
+        (
+            {"method": "POSITIONS", "stencil": "ADAPTIVE", "frame": "B_SPLINE_2"},
+            'frame has no effect with stencil="ADAPTIVE".',
+        ),
+        (
+            {"method": "POSITIONS", "stencil": "MEAN", "frame": "PAIRWISE"},
+            'stencil has no effect with frame="PAIRWISE".',
         ),
         ({"preset": "TRI_2", "max_edges": 0.5}, 'max_edges has no effect without limit="EDGES".'),
         (

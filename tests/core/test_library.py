@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The functions for scripts: what goes in and out, settings by keywords, penalties of one's own."""
 
+import re
 import warnings
 from pathlib import Path
 
@@ -27,6 +28,7 @@ from framelet.core import (
     denoise,
     split_bregman,
 )
+from framelet.core.arguments import as_identifier, as_settings
 from framelet.core.frames import BANKS
 from framelet.core.methods.proximal import norms
 from meshes import faces_of, mixed_sheet, noisy, quad_torus, triangle_torus
@@ -65,6 +67,14 @@ def test_settings_by_name_preset_and_object_are_the_same_run(rng):
         denoise(mesh, method="positions", frame=BANKS["LINEAR_SPLINE"], lambda_=0.2, levels=2),
     ):
         assert_same_bits(result.vertices, expected)
+
+
+def test_presets_that_the_docstring_names_exist(rng):
+    (line,) = [line for line in denoise.__doc__.splitlines() if "in any case: one of" in line]
+    names = re.findall('"([^"]+)"', line)
+    assert len(names) > 2
+    for name in names:
+        assert as_settings(None, name, {}) == PRESETS[as_identifier(name)].settings
 
 
 def test_a_bank_of_ones_own_denoises(rng):

@@ -9,9 +9,10 @@ import textwrap
 import bpy
 from bpy.app.translations import pgettext_iface as iface_
 
+from ...core.settings import replaced_by
 from ...operators.mesh_io import mesh_facts
 from ...operators.properties.scene_units import length_text
-from ...operators.properties.setting_values import has_effect, is_replaced
+from ...operators.properties.setting_values import has_effect
 
 LETTER = 6.2
 """Width of a letter in units of the interface, on average."""
@@ -41,7 +42,7 @@ def draw_settings(
 ) -> None:
     """Draw those of the settings that the method uses, and whether the frame fits an object.
 
-    Those whose values are taken from the noise are grayed.
+    Those that another one replaces are grayed.
     """
     column = settings_column(layout)
     for name in names:
@@ -51,7 +52,7 @@ def draw_settings(
             draw_frame(column, settings, obj)
         else:
             row = column.row()
-            row.active = not is_replaced(settings.method, settings.tuning, name)
+            row.active = replaced_by(settings, name) is None
             row.prop(settings, name)
 
 

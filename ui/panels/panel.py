@@ -11,12 +11,13 @@ import bpy
 from bpy.app.translations import pgettext_iface as iface_
 from bpy.app.translations import pgettext_n as n_
 
+from ...core.settings import replaced_by
 from ...operators.denoise import OBJECT_OT_framelet_denoise
 from ...operators.mesh_io import mesh_facts
 from ...operators.own_soon import begin_soon
 from ...operators.properties.own_settings import shown_settings
 from ...operators.properties.scene_units import range_text
-from ...operators.properties.setting_values import copy_settings, has_effect, is_replaced, write_quietly
+from ...operators.properties.setting_values import copy_settings, has_effect, write_quietly
 from ...operators.run.run_memory import shows_result
 from .layouts import FrameletPanel, draw_settings, draw_value, settings_column
 from .modifier_rows import draw_amount
@@ -76,7 +77,7 @@ class VIEW3D_PT_framelet(FrameletPanel, bpy.types.Panel):
         else:
             layout.separator()
             draw_settings(layout, settings, MAIN_NAMES, context.active_object)
-            if is_replaced(settings.method, settings.tuning, "lambda_"):
+            if replaced_by(settings, "lambda_"):
                 _draw_chosen(layout, context)
         draw_message(layout, context)
 

@@ -100,9 +100,7 @@ TEXTS = {
     "The engine {engine} does not use {names}; give {argument} for one that does.": (
         "Das Verfahren {engine} verwendet {names} nicht; {argument} nimmt eines, das es tut."
     ),
-    'tuning="NOISE" replaces {names} by values from the measured noise.': (
-        'tuning="NOISE" ersetzt {names} durch Werte aus dem gemessenen Rauschen.'
-    ),
+    "{name} has no effect with {argument}.": "{name} wirkt nicht mit {argument}.",
     "{name} has no effect without {argument}.": "{name} wirkt nicht ohne {argument}.",
     # Reports
     "{number} objects": "{number} Objekten",

@@ -176,8 +176,10 @@ TEXTS = {
         "Ränder werden entlang sich selbst geglättet und nicht nach innen gezogen; Ecken bleiben, wo sie sind"
     ),
     "Free": "Frei",
-    "Boundary vertices move like all others, so that open borders shrink": (
-        "Randpunkte bewegen sich wie alle anderen, sodass offene Ränder schrumpfen"
+    "Boundary vertices move like all others, so that open borders shrink, but not with Automatic, which "
+    "treats them as Along does": (
+        "Randpunkte bewegen sich wie alle anderen, sodass offene Ränder schrumpfen, nicht aber mit Automatisch, "
+        "das sie wie Entlang behandelt"
     ),
     # Bilateral
     "Neighborhood σc": "Umgebung σc",
