@@ -59,10 +59,6 @@ def warnings(make_object, capfd):
             {"method": "POSITIONS", "stencil": "ADAPTIVE", "frame": "B_SPLINE_2"},
             'frame has no effect with stencil="ADAPTIVE".',
         ),
-        (
-            {"method": "POSITIONS", "stencil": "MEAN", "frame": "PAIRWISE"},
-            'stencil has no effect with frame="PAIRWISE".',
-        ),
         ({"preset": "TRI_2", "max_edges": 0.5}, 'max_edges has no effect without limit="EDGES".'),
         (
             {"preset": "TRI_2", "max_length": 0.5, "limit": "EDGES"},
