@@ -11,10 +11,11 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .blocks import Stopped
     from .equalizer import equalize
     from .errors import FrameError, FrameletError, MeshError, RegionError, SettingError, TooLargeError
     from .frames import BANKS, FilterBank
-    from .learned.noise_field import NoiseBelief, NoiseField, noise_field
+    from .learned.noise_field import NoiseBelief, NoiseField
     from .library import (
         add_noise,
         bilateral_filter,
@@ -22,41 +23,47 @@ if TYPE_CHECKING:
         denoise,
         estimate_noise,
         face_normals,
+        noise_field,
+        prepare,
         vertex_normals,
     )
     from .limits.region import Region
-    from .mesh.connectivity import Connectivity, connect
+    from .mesh.connectivity import Connectivity
     from .mesh.surface_mesh import SurfaceMesh
     from .methods.proximal import FirmThreshold, HardThreshold, SoftThreshold
     from .methods.solver import split_bregman
     from .metrics import Comparison
     from .noise import NoiseEstimate
     from .preparation_cache import PreparationCache
-    from .prepared import Prepared, prepare
+    from .prepared import Prepared
     from .report import DenoiseReport, DenoiseResult
     from .settings import DEFAULT_PRESET, PRESETS, DenoiseSettings
-    from .stencils import Stencil, make_stencil
-    from .transform import FrameCoefficients, FrameTransform, adjoint, analyze, make_transform, synthesize
+    from .stencils import Stencil
+    from .transform import FrameCoefficients, FrameTransform, adjoint, synthesize
+    from .transforms import analyze, connect, make_stencil, make_transform
 
 _NAMES = {
     ".equalizer": "equalize",
+    ".blocks": "Stopped",
     ".errors": "FrameError FrameletError MeshError RegionError SettingError TooLargeError",
     ".frames": "BANKS FilterBank",
-    ".learned.noise_field": "NoiseBelief NoiseField noise_field",
-    ".library": "add_noise bilateral_filter compare denoise estimate_noise face_normals vertex_normals",
+    ".learned.noise_field": "NoiseBelief NoiseField",
+    ".library": "add_noise bilateral_filter compare denoise estimate_noise face_normals noise_field prepare "
+    "vertex_normals",
     ".limits.region": "Region",
-    ".mesh.connectivity": "Connectivity connect",
+    ".mesh.connectivity": "Connectivity",
     ".mesh.surface_mesh": "SurfaceMesh",
     ".methods.proximal": "FirmThreshold HardThreshold SoftThreshold",
     ".methods.solver": "split_bregman",
     ".metrics": "Comparison",
     ".noise": "NoiseEstimate",
     ".preparation_cache": "PreparationCache",
-    ".prepared": "Prepared prepare",
+    ".prepared": "Prepared",
     ".report": "DenoiseReport DenoiseResult",
     ".settings": "DEFAULT_PRESET DenoiseSettings PRESETS",
-    ".stencils": "Stencil make_stencil",
-    ".transform": "FrameCoefficients FrameTransform adjoint analyze make_transform synthesize",
+    ".stencils": "Stencil",
+    ".transforms": "analyze connect make_stencil make_transform",
+    ".transform": "FrameCoefficients FrameTransform adjoint synthesize",
 }
 """The public names of each module."""
 

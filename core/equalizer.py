@@ -9,25 +9,29 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
+from .arguments import as_identifier, check_frame, takes_mesh
 from .blocks import BLOCK_SIZE, Blocks
 from .errors import SettingError
+from .frames import FilterBank
 from .limits.constraints import find_constraints
 from .mesh.checks import check_surface
-from .mesh.connectivity import Connectivity, connect
+from .mesh.connectivity import Connectivity, check_connectivity, connect
 from .mesh.normalization import displaced, normalize
 from .mesh.surface_mesh import SurfaceMesh
+from .precision import as_array
 from .settings import DenoiseSettings
-from .transform import choose_frame, make_transform
+from .transform import make_transform
 from .value_checks import check_number
 
 HIGHEST_GAIN = 100.0
 
 
+@takes_mesh
 def equalize(
     surface: SurfaceMesh,
     gains: Sequence[float],
     *,
-    frame: str = "AUTO",
+    frame: str | FilterBank = "AUTO",
     stencil: str = "STRAIGHT",
     boundary: str = "ALONG",
     weights: ArrayLike | None = None,
@@ -39,12 +43,12 @@ def equalize(
 
     Parameters
     ----------
-    surface : SurfaceMesh
-        The surface; not modified.
+    vertices, faces : array_like
+        The surface, or a `SurfaceMesh` in place of both; not modified.
     gains : sequence of float
         One gain for each level, finest first: below 1 smooths that scale, above 1 exaggerates it, 1 keeps it.
-    frame, stencil, boundary : str
-        See `DenoiseSettings`.
+    frame, stencil, boundary : str, or FilterBank
+        See `DenoiseSettings`; in any case.
     weights : array_like, shape (N,), optional
         How much of the change each vertex takes, 0 to 1; all of it by default.
     connectivity : Connectivity, optional
@@ -61,16 +65,18 @@ def equalize(
 
     Raises
     ------
-    SettingError
+    FrameletError
         In one sentence, if there is no gain, a gain is not a number from 0 to 100, the weights do not fit,
-        the frame does not fit the mesh, or the mesh is too small for so many levels.
+        the frame does not fit the mesh or is replaced by the stencil, or the mesh is too small for so many
+        levels.
 
     Notes
     -----
     As the transform is linear, S' - S is the inverse transform of {(g_j - 1) high_j, 0}; it is added to the
     positions, so that nothing is lost where gains are 1.
     """
-    check_gains(gains, None if weights is None else np.asarray(weights), surface.n_vertices)
+    check_frame(as_identifier(frame), as_identifier(stencil))
+    check_gains(gains, weights, surface.n_vertices)
     equalizer = Equalizer(
         surface,
         len(gains),
@@ -123,7 +129,7 @@ class Equalizer:
         surface: SurfaceMesh,
         n_levels: int,
         *,
-        frame: str = "AUTO",
+        frame: str | FilterBank = "AUTO",
         stencil: str = "STRAIGHT",
         boundary: str = "ALONG",
         connectivity: Connectivity | None = None,
@@ -136,11 +142,12 @@ class Equalizer:
         self._edge = check_surface(surface)
         self._blocks = Blocks(threads, block_size)
         with self._blocks as blocks:
+            check_connectivity(connectivity, surface)
             connectivity = connectivity or connect(surface, blocks)
             normalized = normalize(surface, connectivity, self._edge)
             transform = make_transform(
                 surface.with_vertices(normalized),
-                choose_frame(frame, connectivity),
+                frame,
                 stencil,
                 n_levels,
                 boundary=boundary,
@@ -150,13 +157,12 @@ class Equalizer:
                 only_used_bands=True,
             )
             self._coefficients = transform.analyze(normalized)
-        settings = DenoiseSettings(method="POSITIONS", boundary=boundary)
+        settings = DenoiseSettings(method="POSITIONS", boundary=as_identifier(boundary))
         self._constraints = find_constraints(surface, connectivity, settings, None, np.dtype(np.float64))
 
     def equalized(self, gains: Sequence[float], *, weights: ArrayLike | None = None) -> NDArray[np.floating]:
         """Return the positions, shape (N, 3), with a gain for each level, finest first; see `equalize`."""
-        shares = None if weights is None else np.asarray(weights)
-        check_gains(gains, shares, len(self._vertices))
+        shares = check_gains(gains, weights, len(self._vertices))
         if len(gains) != self.n_levels:
             raise SettingError(f"There are {len(gains)} gains for {self.n_levels} levels; give one for each.")
         change = self._change([gain - 1.0 for gain in gains])
@@ -183,15 +189,18 @@ class Equalizer:
         return change
 
 
-def check_gains(gains: Sequence[float], weights: NDArray[np.floating] | None, n_vertices: int) -> None:
-    """Raise SettingError unless gains and weights can be used."""
-    if np.ndim(gains) != 1 or not len(gains):
+def check_gains(
+    gains: Sequence[float], weights: ArrayLike | None, n_vertices: int
+) -> NDArray[np.floating] | None:
+    """Raise SettingError unless gains and weights can be used; return the weights as an array."""
+    if not np.iterable(gains) or not len(gains):
         raise SettingError("There are no gains; give one for each level, finest first.")
     for level, gain in enumerate(gains, 1):
         check_number(f"The gain of level {level}", gain, 0.0, HIGHEST_GAIN)
     if weights is not None:
-        if np.shape(weights) != (n_vertices,):
-            raise SettingError(f"The weights have shape {np.shape(weights)}; expected ({n_vertices},).")
+        weights = as_array("The weights", weights)
+        if weights.shape != (n_vertices,):
+            raise SettingError(f"The weights have shape {weights.shape}; expected ({n_vertices},).")
         if weights.dtype.kind not in "biuf":
             raise SettingError(f"The weights are {weights.dtype}; expected real numbers.")
         wrong = ~((weights >= 0.0) & (weights <= 1.0))  # NaN is wrong, too
@@ -200,3 +209,4 @@ def check_gains(gains: Sequence[float], weights: NDArray[np.floating] | None, n_
             raise SettingError(
                 f"The weight of vertex {vertex} is {weights[vertex]:g}; it must be from 0 to 1."
             )
+    return weights

@@ -10,10 +10,12 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
-from .arguments import as_mesh, as_settings
+from .arguments import as_mesh, as_settings, takes_mesh
 from .blocks import Blocks
 from .denoise import denoise as _walk
-from .errors import SettingError
+from .errors import MeshError, SettingError
+from .learned.noise_field import NoiseField
+from .learned.noise_field import noise_field as _noise_field
 from .limits.region import Region
 from .mesh import geometry
 from .mesh.connectivity import Connectivity
@@ -27,6 +29,7 @@ from .noise.model import PAPER_SIGMA
 from .noise.model import add_noise as _add
 from .preparation_cache import PreparationCache
 from .prepared import Prepared
+from .prepared import prepare as _prepare
 from .report import DenoiseResult
 from .settings import DenoiseSettings
 from .value_checks import check_kind
@@ -142,9 +145,8 @@ def denoise(
     return result.vertices if (is_arrays and not full_output) or full_output is False else result
 
 
-def bilateral_filter(
-    mesh: SurfaceMesh | ArrayLike, faces: ArrayLike | None = None, **options: Any
-) -> NDArray[np.floating]:
+@takes_mesh
+def bilateral_filter(mesh: SurfaceMesh, /, **options: Any) -> NDArray[np.floating]:
     """Return the positions, shape (N, 3), after the bilateral filter of Fleishman et al.
 
     It is `denoise` with the preset BILATERAL; `options` are its settings `iterations`, `tolerance`,
@@ -159,17 +161,12 @@ def bilateral_filter(
     for name in ("preset", "settings", "full_output"):
         if name in options:
             raise SettingError(f"The bilateral filter has no {name}; call denoise, which has.")
-    surface = as_mesh(mesh, faces, options.pop("offsets", None))
-    return denoise(surface, preset="BILATERAL", **options).vertices
+    return denoise(mesh, preset="BILATERAL", **options).vertices
 
 
+@takes_mesh
 def estimate_noise(
-    mesh: SurfaceMesh | ArrayLike,
-    faces: ArrayLike | None = None,
-    *,
-    offsets: ArrayLike | None = None,
-    connectivity: Connectivity | None = None,
-    threads: int = 1,
+    mesh: SurfaceMesh, *, connectivity: Connectivity | None = None, threads: int = 0
 ) -> NoiseEstimate:
     """Estimate the noise of a mesh from the mesh alone; see `core.noise.estimate.estimate_noise`.
 
@@ -180,32 +177,26 @@ def estimate_noise(
     0.0
     """
     with Blocks(threads) as blocks:
-        return _estimate(as_mesh(mesh, faces, offsets), connectivity, blocks)
+        return _estimate(mesh, connectivity, blocks)
 
 
-def add_noise(
-    mesh: SurfaceMesh | ArrayLike,
-    sigma: float = PAPER_SIGMA,
-    seed: int = 0,
-    *,
-    faces: ArrayLike | None = None,
-    offsets: ArrayLike | None = None,
-) -> NDArray[np.floating]:
+@takes_mesh
+def add_noise(mesh: SurfaceMesh, sigma: float = PAPER_SIGMA, seed: int = 0) -> NDArray[np.floating]:
     """Return positions, shape (N, 3), with the paper's noise; see `core.noise.model.add_noise`.
 
     Examples
     --------
     >>> flat = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
-    >>> add_noise(flat, 0.1, seed=1, faces=[[0, 1, 2, 3]])[:, 2].round(3).tolist()
+    >>> add_noise(flat, [[0, 1, 2, 3]], 0.1, seed=1)[:, 2].round(3).tolist()
     [0.035, 0.082, 0.033, -0.13]
     """
-    return _add(as_mesh(mesh, faces, offsets), sigma, seed)
+    return _add(mesh, sigma, seed)
 
 
 def compare(
     mesh: SurfaceMesh | ArrayLike,
-    reference: SurfaceMesh | ArrayLike,
-    faces: ArrayLike | None = None,
+    faces: SurfaceMesh | ArrayLike | None = None,
+    reference: SurfaceMesh | ArrayLike | None = None,
     *,
     offsets: ArrayLike | None = None,
 ) -> Comparison:
@@ -213,27 +204,35 @@ def compare(
 
     Parameters
     ----------
-    mesh, reference : SurfaceMesh, or array_like, shape (N, 3)
-        Two meshes with the same faces, or positions: beside a mesh those of its vertices.
-    faces, offsets : array_like, optional
-        The faces, if both are given by positions.
+    mesh, faces : array_like
+        The surface; or a `SurfaceMesh` in place of both, and in place of the faces the reference itself, if
+        that is one.
+    reference : SurfaceMesh, or array_like, shape (N, 3)
+        A mesh with the same faces, or the positions of one.
+    offsets : array_like, optional
+        As in `denoise`.
 
     Examples
     --------
     >>> flat = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
-    >>> compare(flat + [0, 0, 0.5], flat, [[0, 1, 2, 3]]).rms_distance
+    >>> compare(flat + [0, 0, 0.5], [[0, 1, 2, 3]], flat).rms_distance
     0.5
     """
-    if isinstance(mesh, SurfaceMesh):
-        other = reference if isinstance(reference, SurfaceMesh) else mesh.with_vertices(reference)
-        return _compare(as_mesh(mesh, faces, offsets), other)
-    known = as_mesh(reference, faces, offsets)
-    return _compare(known.with_vertices(mesh), known)
+    if reference is None:  # two arguments, and at least one is a mesh
+        if isinstance(mesh, SurfaceMesh):
+            faces, reference = None, faces
+        elif isinstance(faces, SurfaceMesh):
+            mesh, faces, reference = faces.with_vertices(mesh), None, faces
+        if reference is None:
+            raise MeshError("There is no reference; give positions or a SurfaceMesh to compare with.")
+    surface = as_mesh(mesh, faces, offsets)  # type: ignore[arg-type]
+    return _compare(
+        surface, reference if isinstance(reference, SurfaceMesh) else surface.with_vertices(reference)
+    )
 
 
-def face_normals(
-    mesh: SurfaceMesh | ArrayLike, faces: ArrayLike | None = None, *, offsets: ArrayLike | None = None
-) -> NDArray[np.float64]:
+@takes_mesh
+def face_normals(mesh: SurfaceMesh) -> NDArray[np.float64]:
     """Return the unit normals of the faces, shape (F, 3); 0 for faces without area.
 
     Examples
@@ -241,12 +240,11 @@ def face_normals(
     >>> face_normals([[0, 0, 0], [1, 0, 0], [1, 1, 0]], [[0, 1, 2]]).tolist()
     [[0.0, 0.0, 1.0]]
     """
-    return geometry.face_normals(as_mesh(mesh, faces, offsets))
+    return geometry.face_normals(mesh)
 
 
-def vertex_normals(
-    mesh: SurfaceMesh | ArrayLike, faces: ArrayLike | None = None, *, offsets: ArrayLike | None = None
-) -> NDArray[np.float64]:
+@takes_mesh
+def vertex_normals(mesh: SurfaceMesh) -> NDArray[np.float64]:
     """Return unit normals at the vertices, shape (N, 3): area-weighted means of the faces; 0 without a face.
 
     Examples
@@ -254,4 +252,27 @@ def vertex_normals(
     >>> vertex_normals([[0, 0, 0], [1, 0, 0], [1, 1, 0]], [[0, 1, 2]]).tolist()
     [[0.0, 0.0, 1.0], [0.0, 0.0, 1.0], [0.0, 0.0, 1.0]]
     """
-    return geometry.vertex_normals(as_mesh(mesh, faces, offsets))
+    return geometry.vertex_normals(mesh)
+
+
+@takes_mesh
+def noise_field(mesh: SurfaceMesh, after: ArrayLike) -> NoiseField:
+    """Return the noise that was taken away from a mesh; see `core.learned.noise_field.noise_field`.
+
+    Parameters
+    ----------
+    vertices, faces : array_like
+        The surface before, or a `SurfaceMesh` in place of both.
+    after : array_like, shape (N, 3)
+        Its positions after.
+
+    Examples
+    --------
+    >>> flat = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
+    >>> noise_field(flat + [0, 0, 0.25], [[0, 1, 2, 3]], flat).strength.round(6).tolist()
+    [0.25, 0.25, 0.25, 0.25]
+    """
+    return _noise_field(mesh, after)  # type: ignore[arg-type]
+
+
+prepare = takes_mesh(_prepare)

@@ -1,15 +1,15 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The precision that kernels work in."""
+"""Arrays that are given, and the precision that kernels work in."""
 
 from __future__ import annotations
 
 from typing import Any
 
 import numpy as np
-from numpy.typing import DTypeLike
+from numpy.typing import ArrayLike, DTypeLike, NDArray
 
-from .errors import SettingError
+from .errors import FrameletError, SettingError
 from .value_checks import shown
 
 
@@ -37,3 +37,19 @@ def as_precision(dtype: DTypeLike) -> np.dtype[Any]:
     if precision not in (np.float32, np.float64):
         raise SettingError(f"The dtype is {shown(dtype)}; choose float32 or float64.")
     return precision
+
+
+def as_array(name: str, value: ArrayLike, error: type[FrameletError] = SettingError) -> NDArray[Any]:
+    """Return an array; raise an error if a value is none, as where rows differ in length.
+
+    Examples
+    --------
+    >>> as_array("The weights", [[1], [1, 2]])
+    Traceback (most recent call last):
+    ...
+    framelet.core.errors.SettingError: The weights are [[1], [1, 2]]; give an array.
+    """
+    try:
+        return np.asarray(value)
+    except (ValueError, TypeError) as problem:
+        raise error(f"{name} are {shown(value)}; give an array.") from problem

@@ -17,6 +17,7 @@ from .mesh.surface_mesh import SurfaceMesh
 from .precision import as_precision
 from .prepared import Prepared, check_given, prepare, prepare_again
 from .settings import DenoiseSettings
+from .value_checks import check_number
 
 MAX_BYTES = 2**30
 """By default this much is kept: what four meshes of half a million vertices need."""
@@ -35,6 +36,7 @@ class PreparationCache:
     """
 
     def __init__(self, max_bytes: int = MAX_BYTES) -> None:
+        check_number("The number of bytes that are kept", max_bytes, 0)
         self.max_bytes = max_bytes
         self._kept: list[Prepared] = []  # the last used one is last
 
@@ -50,7 +52,8 @@ class PreparationCache:
     ) -> Prepared:
         """Return what `core.prepared.prepare` returns, made anew only as far as it has to be.
 
-        The mesh may be edited in place afterwards: arrays that can be written to are copied.
+        The mesh may be edited in place afterwards: arrays that can be written to are copied. Raises
+        `Stopped` if it was asked to stop.
         """
         check_given(surface, settings, None, should_stop)
         dtype = as_precision(dtype)

@@ -46,6 +46,8 @@ class DenoiseReport:
     seconds: float
     settings: DenoiseSettings
     """What was used; λ, μ and iterations are those that were chosen, where they are taken from the noise."""
+    frame: str = ""
+    """The frame that ran, where the settings say AUTO or a stencil replaces it, too; empty without any."""
     noise: NoiseEstimate | None = None
     """The noise, if it was measured: with the method AUTO a `NoiseBelief`, what was taken for noise."""
     folded_faces: int = 0
@@ -128,6 +130,7 @@ def account(
         loose_vertices=int(np.count_nonzero(connectivity.is_loose)),
         seconds=perf_counter() - began,
         settings=solution.settings,
+        frame="" if problem.transform is None else problem.transform.frame,
         noise=solution.noise,
         line_vertices=problem.line_vertices,
         welded_vertices=0 if resolved.weld is None else resolved.weld.n_merged,

@@ -58,9 +58,15 @@ def check_callable(name: str, value: Any) -> None:
 
 
 def check_number(
-    name: str, value: Any, minimum: float, maximum: float = math.inf, *, is_whole: bool = False
+    name: str,
+    value: Any,
+    minimum: float,
+    maximum: float = math.inf,
+    *,
+    is_whole: bool = False,
+    error: type[FrameletError] = SettingError,
 ) -> None:
-    """Raise SettingError unless a value is a number in a range; True and False are none.
+    """Raise an error unless a value is a number in a range; True and False are none.
 
     Examples
     --------
@@ -71,7 +77,7 @@ def check_number(
     """
     is_number = isinstance(value, Integral if is_whole else Real)
     if not is_number or type(value) is bool:
-        raise SettingError(f"{name} is {shown(value)}; it must be a {'whole ' if is_whole else ''}number.")
+        raise error(f"{name} is {shown(value)}; it must be a {'whole ' if is_whole else ''}number.")
     # Whole numbers and fractions may be larger than any float.
     is_finite = is_whole or not isinstance(value, Rational) or value <= sys.float_info.max
     if minimum <= value <= maximum and value != math.inf and is_finite:  # also refuses NaN
@@ -82,11 +88,13 @@ def check_number(
         if maximum == math.inf
         else f"between {minimum:g} and {maximum:g}"
     )
-    raise SettingError(f"{name} is {number}; it must be {ends}.")
+    raise error(f"{name} is {number}; it must be {ends}.")
 
 
-def check_choice(name: str, value: Any, choices: Iterable[str]) -> None:
-    """Raise SettingError unless a value is one of some words."""
+def check_choice(
+    name: str, value: Any, choices: Iterable[str], error: type[FrameletError] = SettingError
+) -> None:
+    """Raise an error unless a value is one of some words."""
     words = list(choices)
     if not isinstance(value, str) or value not in words:
-        raise SettingError(f"{name} is {shown(value)}; choose one of {', '.join(words)}.")
+        raise error(f"{name} is {shown(value)}; choose one of {', '.join(words)}.")

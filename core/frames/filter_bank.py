@@ -4,10 +4,14 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import FrameError
+from ..precision import as_array
+from ..value_checks import check_choice
 
 EXACT = 1e-12
 """Rounding that a property may be off by in float64."""
@@ -54,8 +58,8 @@ class FilterBank:
     def __init__(self, name: str, lattice: str, offsets: ArrayLike, masks: ArrayLike) -> None:
         self.name = name
         self.lattice = lattice
-        self.offsets = np.array(offsets, np.int64)
-        self.masks = np.array(masks, np.float64)
+        self.offsets = _numbers(f"{name}: the offsets", offsets, np.int64)
+        self.masks = _numbers(f"{name}: the masks", masks, np.float64)
         self._check_shapes()
         self.is_cell_centered = self._find_centering()
         self._check_row_sums()
@@ -76,10 +80,7 @@ class FilterBank:
         return f"FilterBank({self.name}, {self.lattice}, {kind}, {self.n_taps} taps, {self.n_bands} bands)"
 
     def _check_shapes(self) -> None:
-        if self.lattice not in ("TRIANGLES", "QUADS", "ANY"):
-            raise FrameError(
-                f"{self.name}: the lattice is {self.lattice!r}; it must be TRIANGLES, QUADS or ANY."
-            )
+        check_choice(f"{self.name}: the lattice", self.lattice, ("TRIANGLES", "QUADS", "ANY"), FrameError)
         if self.offsets.ndim != 2 or self.offsets.shape[1] != 2 or not len(self.offsets):
             raise FrameError(f"{self.name}: the offsets have shape {self.offsets.shape}; expected (T, 2).")
         if self.masks.ndim != 2 or self.masks.shape[1] != len(self.offsets) or not len(self.masks):
@@ -137,6 +138,16 @@ class FilterBank:
     def used_bands(self) -> NDArray[np.intp]:
         """Bands that reach the surface: the low-pass and those with an entry in v (Remark 4.1)."""
         return np.flatnonzero(np.abs(self.reconstruction).max(axis=0) > EXACT)
+
+
+def _numbers(name: str, values: ArrayLike, dtype: type) -> NDArray[Any]:
+    """Return a copy of numbers in a type; raise FrameError if they are none, or not whole if they must be."""
+    found = as_array(name, values, FrameError)
+    if found.dtype.kind not in ("iu" if dtype is np.int64 else "iuf"):
+        raise FrameError(
+            f"{name} are {found.dtype}; expected {'whole' if dtype is np.int64 else 'real'} numbers."
+        )
+    return found.astype(dtype)
 
 
 def unitary_extension_defects(offsets: ArrayLike, masks: ArrayLike) -> tuple[float, float]:

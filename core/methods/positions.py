@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from ..noise import NoiseEstimate, estimate_noise
 from ..settings import DenoiseSettings
-from ..transform import choose_frame
 from .problem import Problem, Solution
 from .proximal import SoftThreshold
 from .split_bregman import Steps, split_bregman
@@ -48,7 +47,8 @@ def shrink_positions(problem: Problem) -> Solution:
     settings, noise = problem.settings, None
     if settings.tuning == "NOISE":
         noise = estimate_noise(problem.surface, problem.connectivity, problem.blocks, problem.movable)
-        settings = tuned(settings, choose_frame(settings.frame, problem.connectivity), noise)
+        assert problem.transform is not None
+        settings = tuned(settings, problem.transform.frame, noise)
     lambda_ = settings.strength * settings.lambda_
     if lambda_ == 0.0:  # nothing is shrunk, so nothing moves
         return Solution(problem.noisy, settings.iterations, False, settings, noise)
@@ -71,15 +71,14 @@ def shrink_positions(problem: Problem) -> Solution:
 
 
 def tuned(settings: DenoiseSettings, frame: str, noise: NoiseEstimate) -> DenoiseSettings:
-    """Return settings with λ, μ and the number of iterations for a noise, and a frame that is not AUTO.
+    """Return settings with λ, μ and the number of iterations for a noise, and the frame that was made.
 
     A mesh without noise gets λ = 0, so that nothing moves. Of impulsive noise the root mean square counts.
     """
-    frame = getattr(frame, "name", frame)  # of a bank of one's own
     sigma = noise.sigma_edges
     if noise.is_impulsive and noise.sigma > 0:
         sigma *= noise.rms / noise.sigma
-    if settings.stencil == "ADAPTIVE" or frame in ("ADAPTIVE", "PAIRWISE"):
+    if frame in ("ADAPTIVE", "PAIRWISE"):
         kind = "ADAPTIVE"
     else:
         kind = "TRIANGLES" if frame.startswith("BOX_SPLINE_111") else "QUADS"

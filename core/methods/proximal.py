@@ -15,9 +15,11 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arguments import as_identifier
 from ..errors import SettingError
 from ..settings import choices
 from ..transform.level import Bands
+from ..value_checks import check_choice, check_number
 
 SHRINKAGES = tuple(choice.identifier for choice in choices.SHRINKAGES)
 """What is shrunk together, by name."""
@@ -48,11 +50,9 @@ class _Threshold:
     kind: str
 
     def __post_init__(self) -> None:
-        if self.kind.upper() not in SHRINKAGES:
-            raise SettingError(f"The shrinkage is {self.kind!r}; choose one of {', '.join(SHRINKAGES)}.")
-        object.__setattr__(self, "kind", self.kind.upper())
-        if not 0.0 <= self.weight < float("inf"):
-            raise SettingError(f"The weight is {self.weight}; it must be 0 or a positive number.")
+        object.__setattr__(self, "kind", as_identifier(self.kind))
+        check_choice("The shrinkage", self.kind, SHRINKAGES)
+        check_number("The weight", self.weight, 0.0)
 
     def __call__(self: Penalty, bands: Bands, step: float = 1.0) -> Bands:
         """Apply the proximal operator."""
@@ -145,8 +145,7 @@ class FirmThreshold(_Threshold):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if not self.limit > 0.0:
-            raise SettingError(f"The limit is {self.limit}; it must be a positive number.")
+        check_number("The limit", self.limit, 0.0)
 
     def removed(self, bands: Bands, mu: float, groups: Groups = None) -> Bands:
         """See `Penalty`."""

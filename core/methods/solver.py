@@ -10,12 +10,16 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..blocks import Blocks
-from ..errors import MeshError, SettingError
+from ..errors import SettingError
 from ..transform import FrameTransform
 from ..transform.level import Bands
+from ..value_checks import check_callable, check_number, shown
 from .proximal import FirmThreshold, HardThreshold, OwnPenalty, Penalty, SoftThreshold
 from .split_bregman import Steps
 from .split_bregman import split_bregman as iterate
+
+LEAST_MU = 1e-12
+"""Penalty that is positive: beside smaller ones nothing of the positions is left."""
 
 Observer = Callable[[int, NDArray[np.floating], float], bool | None]
 """`callback(iteration, vertices, objective)`: the iterate, shape (N, 3), and 1/2 |S - S~|^2 + g(W S) there;
@@ -74,22 +78,23 @@ def split_bregman(
     >>> points[:, :2] += np.stack(np.meshgrid(range(5), range(5)), axis=-1).reshape(-1, 2)
     >>> corner = np.arange(20).reshape(4, 5)[:, :4].ravel()
     >>> faces = np.stack((corner, corner + 1, corner + 6, corner + 5), axis=1)
-    >>> W = FrameTransform((points, faces), "linear-spline")
+    >>> W = FrameTransform(points, faces, "linear-spline")
     >>> objectives = []
     >>> keep = lambda iteration, vertices, objective: objectives.append(objective)
     >>> clean = split_bregman(points, W, SoftThreshold(0.1), callback=keep)
     >>> objectives[-1] < objectives[0]
     True
     """
-    positions = np.asarray(vertices)
-    n = transform.levels[0].n_vertices
-    if positions.shape != (n, 3):
-        raise MeshError(f"The positions have shape {positions.shape}; the transform needs ({n}, 3).")
-    if not mu > 0.0 or not 0.0 <= delta <= 1.0 or iterations < 1:
-        raise SettingError(
-            f"mu is {mu:g}, delta {delta:g}, iterations {iterations}; "
-            "they must be positive, from 0 to 1, and at least 1."
-        )
+    if not isinstance(transform, FrameTransform):
+        raise SettingError(f"The transform is {shown(transform)}; give a FrameTransform.")
+    positions = transform.positions_of(vertices)
+    check_number("mu", mu, LEAST_MU)
+    check_number("delta", delta, 0.0, 1.0)
+    check_number("The number of iterations", iterations, 1, is_whole=True)
+    check_number("The tolerance", tolerance, 0.0)
+    check_callable("The proximal operator", () if prox is None else prox)
+    check_callable("The penalty", penalty)
+    check_callable("The callback", callback)
     known = prox if isinstance(prox, SoftThreshold | HardThreshold | FirmThreshold) else None
     g: Penalty = known or (prox if hasattr(prox, "removed") else OwnPenalty(prox, penalty))  # type: ignore
     noisy = np.ascontiguousarray(positions.T, transform.dtype)

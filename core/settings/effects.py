@@ -69,9 +69,10 @@ def replaced_by(settings: Any, name: str) -> Replaced | None:
     'tuning'
     """
     for entry in REPLACED:
+        value, other = getattr(settings, name), getattr(settings, entry.beside)
         is_used = name in entry.names and settings.method == entry.method
-        if is_used and getattr(settings, entry.beside) in entry.values:
-            return None if getattr(settings, name) in entry.unless else entry
+        if is_used and isinstance(other, str) and other in entry.values:
+            return None if isinstance(value, str) and value in entry.unless else entry
     return None
 
 

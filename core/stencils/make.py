@@ -11,6 +11,7 @@ from ..frames.box_spline import BOX_SPLINE_111
 from ..mesh.connectivity import Connectivity
 from ..mesh.distance_rings import edge_adjacency, face_adjacency
 from ..mesh.surface_mesh import SurfaceMesh
+from ..value_checks import check_choice
 from .builder import StencilBuilder
 from .dilation import dilate
 from .grid_stencil import make_grid_stencil
@@ -26,7 +27,7 @@ BOUNDARIES = ("ALONG", "FIXED", "FREE")
 def make_stencil(
     surface: SurfaceMesh,
     connectivity: Connectivity,
-    rule: str = "STRAIGHT",
+    stencil: str = "STRAIGHT",
     boundary: str = "ALONG",
     blocks: Blocks | None = None,
     bank: FilterBank = BOX_SPLINE_111,
@@ -40,7 +41,7 @@ def make_stencil(
         The surface on which angles and lengths are measured; not modified.
     connectivity : Connectivity
         Its neighborhoods.
-    rule : {"MEAN", "STRAIGHT"}
+    stencil : {"MEAN", "STRAIGHT"}
         The rule at irregular vertices; those that STRAIGHT cannot serve take MEAN.
     boundary : {"ALONG", "FIXED", "FREE"}
         With FREE, boundary vertices are irregular vertices like others; else missing points are mirrored.
@@ -57,12 +58,10 @@ def make_stencil(
     Raises
     ------
     FrameError
-        If the rule or the boundary is not known.
+        If the stencil or the boundary is not known.
     """
-    if rule not in RULES:
-        raise FrameError(f"The stencil rule is {rule!r}; choose one of {', '.join(RULES)}.")
-    if boundary not in BOUNDARIES:
-        raise FrameError(f"The boundary is {boundary!r}; choose one of {', '.join(BOUNDARIES)}.")
+    check_choice("The stencil", stencil, RULES, FrameError)
+    check_choice("The boundary", boundary, BOUNDARIES, FrameError)
     blocks = blocks or Blocks(1)
     if bank.is_cell_centered or bank.reach > 1:
         return make_grid_stencil(surface, connectivity, boundary, bank, level)
@@ -72,7 +71,7 @@ def make_stencil(
         if level:
             adjacency = face_adjacency(surface, connectivity)
             ring_points = dilate(ring_points, surface.vertices, adjacency, level, 1, blocks)
-        fill_quads(builder, surface.vertices, ring_points, rule, boundary, blocks)
+        fill_quads(builder, surface.vertices, ring_points, stencil, boundary, blocks)
     else:
         has_far = builder.has(*ACROSS)
         ring_points = triangle_points(surface, connectivity) if has_far else one_ring_points(connectivity)
@@ -80,5 +79,5 @@ def make_stencil(
             ring_points = dilate(
                 ring_points, surface.vertices, edge_adjacency(connectivity), level, 2, blocks
             )
-        fill_triangles(builder, surface.vertices, ring_points, rule, boundary, blocks)
+        fill_triangles(builder, surface.vertices, ring_points, stencil, boundary, blocks)
     return builder.finish()

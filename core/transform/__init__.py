@@ -7,8 +7,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..frames import FilterBank
-from ..mesh.surface_mesh import SurfaceMesh
+from ..errors import FrameError
+from ..value_checks import shown
 from .coefficients import FrameCoefficients
 from .frame_transform import FrameTransform
 from .make import choose_frame, make_transform
@@ -17,28 +17,24 @@ __all__ = [
     "FrameCoefficients",
     "FrameTransform",
     "adjoint",
-    "analyze",
     "choose_frame",
     "make_transform",
     "synthesize",
 ]
 
 
-def analyze(
-    surface: SurfaceMesh,
-    frame: str | FilterBank = "AUTO",
-    stencil: str = "STRAIGHT",
-    levels: int = 1,
-) -> FrameCoefficients:
-    """Decompose a surface in float64; see `make_transform` for the parameters and errors."""
-    return make_transform(surface, frame, stencil, levels).analyze(surface.vertices)
-
-
 def synthesize(coefficients: FrameCoefficients) -> NDArray[np.floating]:
     """Rebuild positions, shape (N, 3), from coefficients; the inverse of `analyze` on every mesh."""
-    return coefficients.transform.synthesize(coefficients)
+    return _transform_of(coefficients).synthesize(coefficients)
 
 
 def adjoint(coefficients: FrameCoefficients) -> NDArray[np.floating]:
     """Apply the adjoint of `analyze`, shape (N, 3); see `FrameTransform.adjoint`."""
-    return coefficients.transform.adjoint(coefficients)
+    return _transform_of(coefficients).adjoint(coefficients)
+
+
+def _transform_of(coefficients: FrameCoefficients) -> FrameTransform:
+    """Return the transform that made coefficients."""
+    if not isinstance(coefficients, FrameCoefficients):
+        raise FrameError(f"The coefficients are {shown(coefficients)}; give what `analyze` returned.")
+    return coefficients.transform

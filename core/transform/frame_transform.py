@@ -5,15 +5,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from inspect import signature
+from typing import Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
-from ..arguments import as_identifier
+from ..arguments import as_identifier, check_frame, takes_mesh
+from ..blocks import Blocks
 from ..errors import FrameError, MeshError, TooLargeError
 from ..frames import FilterBank
-from ..mesh.connectivity import connect
 from ..mesh.surface_mesh import SurfaceMesh
+from ..precision import as_array
+from ..value_checks import check_number, shown
 from .coefficients import FrameCoefficients
 from .level import Bands, Level, Points, Visit
 
@@ -26,16 +30,18 @@ class FrameTransform:
 
     Parameters
     ----------
-    mesh : SurfaceMesh or (vertices, faces)
-        The surface that the stencils are chosen on; not modified.
+    vertices, faces : array_like
+        The surface that the stencils are chosen on, or a `SurfaceMesh` in place of both; not modified.
     frame : str or FilterBank
         Name of a frame, in any case, "auto" for the one that fits the faces, or a bank of your own.
     levels : int
         Number of levels.
     stencil : {"STRAIGHT", "MEAN", "ADAPTIVE"}
-        Rule at irregular vertices.
+        Rule at irregular vertices; ADAPTIVE is for the frames "auto", "adaptive" and "pairwise".
     boundary : {"ALONG", "FIXED", "FREE"}
         See `make_stencil`.
+    threads : int
+        Number of threads that choose the stencils; 0 uses all cores.
     dtype : dtype
         Precision.
 
@@ -44,20 +50,21 @@ class FrameTransform:
     levels : tuple of Level
         Its stages, finest first.
     frame : str
-        Name of the frame.
+        Name of the frame that was made.
     dtype : dtype
         Precision.
 
     Raises
     ------
-    FrameError
-        If the frame is not known or does not fit the mesh, or the mesh is too small for so many levels.
+    FrameletError
+        If the frame is not known, does not fit the mesh or is replaced by the stencil, or the mesh is too
+        small for so many levels.
 
     Examples
     --------
     >>> points = np.stack(np.meshgrid(range(4), range(4), [0.0]), axis=-1).reshape(-1, 3)
     >>> corner = np.array([0, 1, 2, 4, 5, 6, 8, 9, 10])
-    >>> W = FrameTransform((points, np.stack((corner, corner + 1, corner + 5, corner + 4), axis=1)))
+    >>> W = FrameTransform(points, np.stack((corner, corner + 1, corner + 5, corner + 4), axis=1))
     >>> W
     FrameTransform(LINEAR_SPLINE, 1 level, 16 vertices, 9 bands, not tight)
     >>> low, *details = W.analyze(points)
@@ -71,31 +78,25 @@ class FrameTransform:
     frame: str
     dtype: np.dtype
 
+    @overload
     def __init__(
         self,
-        mesh: SurfaceMesh | tuple[ArrayLike, ArrayLike],
+        mesh: SurfaceMesh,
+        /,
         frame: str | FilterBank = "auto",
         levels: int = 1,
         *,
         stencil: str = "STRAIGHT",
         boundary: str = "ALONG",
+        threads: int = 0,
         dtype: DTypeLike = np.float64,
-    ) -> None:
-        from .make import choose_frame, make_transform  # which makes transforms by `of_levels`
+    ) -> None: ...
 
-        surface = mesh if isinstance(mesh, SurfaceMesh) else SurfaceMesh.from_faces(*mesh)
-        connectivity = connect(surface)
-        if isinstance(frame, str):
-            frame = choose_frame(as_identifier(frame), connectivity)
-        made = make_transform(
-            surface,
-            frame,
-            as_identifier(stencil),
-            levels,
-            boundary=as_identifier(boundary),
-            connectivity=connectivity,
-            dtype=dtype,
-        )
+    @overload
+    def __init__(self, vertices: ArrayLike, faces: ArrayLike, /, *rest: Any, **options: Any) -> None: ...
+
+    def __init__(self, *arguments: Any, **options: Any) -> None:
+        made = _made(*arguments, **options)
         self.levels, self.frame, self.dtype = made.levels, made.frame, made.dtype
 
     @classmethod
@@ -129,11 +130,7 @@ class FrameTransform:
         They are also a sequence of plain arrays, coarse to fine: the low-pass (N, 3), then the high bands of
         each level, (H, sites, 3).
         """
-        positions = np.asarray(vertices)
-        if positions.shape != (self.n_vertices, 3):
-            raise MeshError(
-                f"The positions have shape {positions.shape}; the transform needs ({self.n_vertices}, 3)."
-            )
+        positions = self.positions_of(vertices)
         low = np.ascontiguousarray(positions.T, self.dtype)
         chunks: list[list[Bands]] = []
         for level in self.levels:
@@ -146,11 +143,24 @@ class FrameTransform:
             chunks.append(kept)
         return FrameCoefficients(np.ascontiguousarray(low.T), chunks, self)
 
+    def positions_of(self, vertices: ArrayLike) -> NDArray[Any]:
+        """Return positions as an array; raise MeshError unless they are numbers of shape (N, 3)."""
+        positions = as_array("The positions", vertices, MeshError)
+        if positions.shape != (self.n_vertices, 3):
+            raise MeshError(
+                f"The positions have shape {positions.shape}; the transform needs ({self.n_vertices}, 3)."
+            )
+        if positions.dtype.kind not in "biuf":
+            raise MeshError(f"The positions are {positions.dtype}; expected real numbers.")
+        return positions
+
     def _coefficients(self, given: FrameCoefficients | Sequence[ArrayLike]) -> FrameCoefficients:
         """Return coefficients that are given as plain arrays, coarse to fine, by chunks."""
         if isinstance(given, FrameCoefficients):
             return given
-        arrays = [np.asarray(array) for array in given]
+        if not isinstance(given, Sequence | np.ndarray) or not np.iterable(given):
+            raise FrameError(f"The coefficients are {shown(given)}; give the arrays that `analyze` returned.")
+        arrays = [as_array("The coefficients", array, FrameError) for array in given]
         if len(arrays) != len(self.levels) + 1:
             raise FrameError(
                 f"There are {len(arrays)} arrays of coefficients; expected the low-pass and "
@@ -158,6 +168,8 @@ class FrameTransform:
             )
         expected = [(level.n_high, level.n_sites, 3) for level in reversed(self.levels)]
         for array, shape in zip(arrays, [(self.n_vertices, 3), *expected], strict=True):
+            if array.dtype.kind not in "biuf":
+                raise FrameError(f"The coefficients are {array.dtype}; expected real numbers.")
             if array.shape != shape:
                 raise FrameError(f"Coefficients have shape {array.shape}; expected {shape}.")
         chunks = [
@@ -236,6 +248,7 @@ class FrameTransform:
         tuple of float
             Both are 1 if the frame is tight and all measures are 1.
         """
+        check_number("The number of steps", steps, 1, is_whole=True)
         n = self.n_vertices
         vector = np.random.default_rng(0).normal(size=n)
         basis = np.zeros((min(steps, n), n))
@@ -292,3 +305,25 @@ class FrameTransform:
             change = level.backward(change, waiting.pop())
         assert change is not None
         return change
+
+
+@takes_mesh
+def _made(
+    mesh: SurfaceMesh,
+    frame: str | FilterBank = "auto",
+    levels: int = 1,
+    *,
+    stencil: str = "STRAIGHT",
+    boundary: str = "ALONG",
+    threads: int = 0,
+    dtype: DTypeLike = np.float64,
+) -> FrameTransform:
+    """Return the transform that `FrameTransform` becomes."""
+    from .make import make_transform  # which makes transforms by `of_levels`
+
+    check_frame(as_identifier(frame), as_identifier(stencil))
+    with Blocks(threads) as blocks:
+        return make_transform(mesh, frame, stencil, levels, boundary=boundary, blocks=blocks, dtype=dtype)
+
+
+FrameTransform.__signature__ = signature(_made)  # type: ignore[attr-defined]

@@ -7,17 +7,20 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
+from ..arguments import as_identifier
 from ..blocks import Blocks
 from ..errors import FrameError
 from ..frames import BANKS, FilterBank
 from ..frames.valence_masks import FAMILIES
-from ..mesh.connectivity import Connectivity, connect
+from ..mesh.connectivity import Connectivity, check_connectivity, connect
 from ..mesh.distance_rings import distance_rings, edge_adjacency, face_adjacency
 from ..mesh.surface_mesh import SurfaceMesh
 from ..precision import as_precision
 from ..stencils import make_stencil
 from ..stencils.dilation import dilate
+from ..stencils.make import BOUNDARIES, RULES
 from ..stencils.ring_points import one_ring_points
+from ..value_checks import check_choice, check_number
 from .adaptive_level import AdaptiveLevel, Neighbors, ring_neighbors
 from .frame_transform import FrameTransform
 from .lattice_level import LatticeLevel
@@ -26,7 +29,7 @@ from .level import Bands
 
 def make_transform(
     surface: SurfaceMesh,
-    frame: str | FilterBank = "BOX_SPLINE_111",
+    frame: str | FilterBank = "AUTO",
     stencil: str = "STRAIGHT",
     levels: int = 1,
     *,
@@ -44,6 +47,7 @@ def make_transform(
         The surface; not modified. The stencils of level j are chosen on its low-pass low_j.
     frame : str or FilterBank
         A name in `BANKS`, ADAPTIVE, PAIRWISE, AUTO for the one that fits the faces, or a bank of your own.
+        Names, as those of stencils and boundaries, in any case.
     stencil : {"MEAN", "STRAIGHT", "ADAPTIVE"}
         Rule at irregular vertices; ADAPTIVE takes masks that fit the valence, whatever the frame.
     levels : int
@@ -64,16 +68,19 @@ def make_transform(
     """
     dtype = as_precision(dtype)
     blocks = blocks or Blocks(1)
+    check_connectivity(connectivity, surface)
     connectivity = connectivity or connect(surface, blocks)
-    frame = choose_frame(frame, connectivity) if isinstance(frame, str) else frame
-    name = frame.name if isinstance(frame, FilterBank) else frame
-    if not isinstance(frame, FilterBank) and (not isinstance(frame, str) or frame not in {*BANKS, *FAMILIES}):
-        raise FrameError(f"The frame is {frame!r}; choose one of {', '.join([*BANKS, *FAMILIES])}.")
-    if levels < 1:
-        raise FrameError(f"The number of levels is {levels}; it must be at least 1.")
-    if stencil == "ADAPTIVE" or name in FAMILIES:
-        family = FAMILIES["PAIRWISE" if name == "PAIRWISE" else "ADAPTIVE"]
-        return _adaptive_transform(surface, family, name, levels, boundary, connectivity, blocks, dtype)
+    stencil, boundary = as_identifier(stencil), as_identifier(boundary)
+    if not isinstance(frame, FilterBank):
+        word: str = as_identifier(frame)
+        check_choice("The frame", word, ["AUTO", *BANKS, *FAMILIES], FrameError)
+        frame = choose_frame(word, connectivity)
+    check_choice("The stencil", stencil, [*RULES, "ADAPTIVE"], FrameError)
+    check_choice("The boundary", boundary, BOUNDARIES, FrameError)
+    check_number("The number of levels", levels, 1, is_whole=True, error=FrameError)
+    if stencil == "ADAPTIVE" or frame in FAMILIES:
+        name = "PAIRWISE" if frame == "PAIRWISE" else "ADAPTIVE"
+        return _adaptive_transform(surface, name, levels, boundary, connectivity, blocks, dtype)
     bank = BANKS[frame] if isinstance(frame, str) else frame
     check_fit(bank, connectivity)
     bands = bank.used_bands if only_used_bands else None
@@ -103,7 +110,6 @@ def choose_frame(frame: str, connectivity: Connectivity) -> str:
 
 def _adaptive_transform(
     surface: SurfaceMesh,
-    family: type,
     name: str,
     levels: int,
     boundary: str,
@@ -112,6 +118,7 @@ def _adaptive_transform(
     dtype: np.dtype,
 ) -> FrameTransform:
     """Choose the neighbors of every level, then pull the measures back from the coarsest."""
+    family = FAMILIES[name]
     ring_points = one_ring_points(connectivity)
     adjacency = edge_adjacency(connectivity)
     one = np.ones(surface.n_vertices)

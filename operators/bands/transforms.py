@@ -49,8 +49,8 @@ def transform_of(
     """Return the transform of a mesh in float64 with all bands, and its threads."""
     import numpy as np
 
-    from ...core import make_transform
     from ...core.blocks import Blocks
+    from ...core.transform import make_transform
 
     def make() -> tuple[FrameTransform, Blocks]:
         positions = surface.with_vertices(surface.vertices.astype(np.float64))

@@ -60,10 +60,12 @@ def band_arrays(
     """
     import numpy as np
 
-    from ...core import BANKS, connect, make_transform
     from ...core.blocks import Blocks
+    from ...core.frames import BANKS
     from ...core.mesh.checks import check_surface
+    from ...core.mesh.connectivity import connect
     from ...core.stencils.cells import find_cells
+    from ...core.transform import make_transform
     from ..mesh_io.mesh_facts import find_facts, is_on_cells, resolve_frame, stored_bytes
 
     check_surface(surface)

@@ -12,11 +12,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 from checks import TRIANGLE_PRESETS, assert_same_bits, preset_settings
-from framelet.core import SurfaceMesh, add_noise, compare, connect, denoise, make_stencil, prepare
+from framelet.core import SurfaceMesh, add_noise, compare, denoise, prepare
 from framelet.core.blocks import BLOCK_SIZE, Blocks
+from framelet.core.mesh.connectivity import connect
 from framelet.core.mesh.distance_rings import CENTERS_AT_ONCE
 from framelet.core.mesh.geometry import mean_edge_length
 from framelet.core.processors import default_threads
+from framelet.core.stencils import make_stencil
 from framelet.operators.machine import available_processors
 from meshes import flipped, mixed_sheet, noisy, pyramid, triangle_grid, triangle_torus, turned_over, union
 

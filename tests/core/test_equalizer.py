@@ -174,7 +174,7 @@ NOTHING = SurfaceMesh.from_faces(np.zeros((0, 3)), [])
             "^B_SPLINE_2 is a frame for quads, but the mesh has none; use a box",
         ),
         (None, [1], {"frame": "HAAR"}, "^The frame is 'HAAR'; choose one of "),
-        (None, [1], {"stencil": "BEST"}, "^The stencil rule is 'BEST'; choose one of MEAN, STRAIGHT"),
+        (None, [1], {"stencil": "BEST"}, "^The stencil is 'BEST'; choose one of MEAN, STRAIGHT"),
         (None, [1], {"boundary": "OPEN"}, "(B|b)oundary is 'OPEN'; choose one of "),
         (None, [2], {"weights": np.ones(3)}, r"^The weights have shape \(3,\); expected \(72,\)\.$"),
         (

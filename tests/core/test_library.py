@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The functions for scripts: what goes in and out, settings by keywords, penalties of one's own."""
 
+import inspect
 import re
 import warnings
 from pathlib import Path
@@ -131,13 +132,13 @@ def test_other_functions_take_arrays_and_meshes_alike(rng):
     V, F = mesh.vertices, faces_of(mesh)
     mesh = SurfaceMesh.from_faces(V, F)
     assert core.estimate_noise(V, F) == core.estimate_noise(mesh, threads=2)
-    assert_same_bits(core.add_noise(V, 0.1, 3, faces=F), core.add_noise(mesh, 0.1, 3))
+    assert_same_bits(core.add_noise(V, F, 0.1, 3), core.add_noise(mesh, 0.1, 3))
     assert_same_bits(core.face_normals(V, F), core.face_normals(mesh))
     assert_same_bits(core.vertex_normals(V, F), core.vertex_normals(mesh))
     moved = core.bilateral_filter(V, F, iterations=2)
     assert_same_bits(moved, denoise(mesh, "BILATERAL", iterations=2).vertices)
     by_meshes = core.compare(mesh.with_vertices(moved), mesh)
-    assert core.compare(moved, V, F) == core.compare(moved, mesh) == by_meshes
+    assert core.compare(moved, F, V) == core.compare(moved, mesh) == by_meshes
     assert core.compare(mesh.with_vertices(moved), V) == by_meshes
 
 
@@ -236,14 +237,22 @@ def test_an_operator_of_ones_own_is_the_built_in_one(rng):
 def test_numbers_that_no_solver_takes_are_refused():
     mesh = triangle_torus()
     transform = FrameTransform(mesh)
-    for options in ({"mu": 0.0}, {"delta": 2.0}, {"iterations": 0}):
-        with pytest.raises(SettingError, match="they must be positive, from 0 to 1, and at least 1"):
+    for options, sentence in (
+        ({"mu": 0.0}, "mu is 0; it must be"),
+        ({"mu": "a"}, "mu is 'a'; it must be a number"),
+        ({"delta": 2.0}, "delta is 2; it must be between 0 and 1"),
+        ({"iterations": 0}, "The number of iterations is 0; it must be"),
+        ({"iterations": 2.5}, "The number of iterations is 2.5; it must be a whole number"),
+        ({"tolerance": None}, "The tolerance is None; it must be a number"),
+        ({"callback": 3}, "The callback is 3; give a function"),
+    ):
+        with pytest.raises(SettingError, match=sentence):
             split_bregman(mesh.vertices, transform, SoftThreshold(0.1), **options)
     with pytest.raises(MeshError, match=r"the transform needs \(192, 3\)"):
         split_bregman(mesh.vertices[1:], transform, SoftThreshold(0.1))
     with pytest.raises(SettingError, match="The weight is -1"):
         SoftThreshold(-1)
-    with pytest.raises(SettingError, match="The shrinkage is 'none'"):
+    with pytest.raises(SettingError, match="The shrinkage is 'NONE'"):
         HardThreshold(1, "none")
     with pytest.raises(SettingError, match="larger than the weight over mu"):
         split_bregman(mesh.vertices, transform, FirmThreshold(2.0, 1.0))
@@ -303,13 +312,13 @@ def ragged(positions):
             "The weights are <U1; expected real numbers",
         ),
         (lambda V, F: core.equalize(surface(V, F), [1], frame=5), core.FrameError, "The frame is 5; choose"),
-        (lambda V, F: core.add_noise(V, "0.1", faces=F), SettingError, "The noise level is '0.1'"),
-        (lambda V, F: core.add_noise(V, 0.1, -1, faces=F), SettingError, "The seed is -1"),
-        (lambda V, F: core.add_noise(V, 0.1, None, faces=F), SettingError, "The seed is None"),
-        (lambda V, F: core.add_noise(V, 1e308 * 9, faces=F), SettingError, "The noise level is inf"),
-        (lambda V, F: core.add_noise(V, 1e308, faces=F), SettingError, "with it there are no numbers"),
-        (lambda V, F: core.compare(V * np.nan, V, F), MeshError, "not finite points"),
-        (lambda V, F: core.compare(V.astype(str), V, F), MeshError, "The positions are <U32; expected real"),
+        (lambda V, F: core.add_noise(V, F, "0.1"), SettingError, "The noise level is '0.1'"),
+        (lambda V, F: core.add_noise(V, F, 0.1, -1), SettingError, "The seed is -1"),
+        (lambda V, F: core.add_noise(V, F, 0.1, None), SettingError, "The seed is None"),
+        (lambda V, F: core.add_noise(V, F, 1e308 * 9), SettingError, "The noise level is inf"),
+        (lambda V, F: core.add_noise(V, F, 1e308), SettingError, "with it there are no numbers"),
+        (lambda V, F: core.compare(V * np.nan, F, V), MeshError, "not finite points"),
+        (lambda V, F: core.compare(V.astype(str), F, V), MeshError, "The positions are <U32; expected real"),
         (lambda V, F: surface(V, F).with_vertices(V * 1j), MeshError, "The positions are complex128"),
     ],
 )
@@ -358,3 +367,118 @@ def test_a_result_is_no_mesh_to_compare(rng):
     for given in ((result, mesh), (mesh, result)):
         with pytest.raises(MeshError, match="expected real numbers"):
             compare(*given)
+
+
+MESH_FUNCTIONS = {
+    "add_noise": (0.1, 3),
+    "analyze": ("adaptive",),
+    "bilateral_filter": (),
+    "compare": None,  # the positions of another mesh
+    "connect": (),
+    "denoise": (),
+    "equalize": ([0.5],),
+    "estimate_noise": (),
+    "face_normals": (),
+    "FrameTransform": ("auto",),
+    "make_stencil": (),
+    "make_transform": ("Adaptive",),
+    "noise_field": None,
+    "prepare": (),
+    "vertex_normals": (),
+}
+"""All public functions of a mesh, and what follows it."""
+
+
+def arrays_of(result):
+    """Return all numbers of a result in one list."""
+    if isinstance(result, FrameTransform):
+        result = [result.frame, *result.measures()]
+    if isinstance(result, np.ndarray):
+        return [result]
+    if isinstance(result, core.DenoiseResult):
+        return [result.vertices]
+    if isinstance(result, core.FrameCoefficients | list | tuple):
+        return [array for item in result for array in arrays_of(item)]
+    if isinstance(result, core.Prepared):
+        return arrays_of([result.surface.corner_vertex, result.noisy, result.connectivity.ring])
+    if hasattr(result, "__dict__") and not isinstance(result, str):
+        return arrays_of([value for key, value in vars(result).items() if key != "transform"])
+    return [np.array(result if isinstance(result, int | float | str) else 0)]
+
+
+@pytest.mark.parametrize("name", MESH_FUNCTIONS)
+def test_every_function_takes_vertices_and_faces_or_a_mesh(name, rng):
+    """Faces as lists, by name and as a flat list with offsets, too."""
+    mesh = noisy(mixed_sheet(), rng)
+    V, F = mesh.vertices, faces_of(mesh)
+    mesh = SurfaceMesh.from_faces(V, F)
+    call, rest = getattr(core, name), MESH_FUNCTIONS[name]
+    rest = (V + 0.1,) if rest is None else rest
+    flat, offsets = np.concatenate(F), np.cumsum([0, *map(len, F)])
+    expected = arrays_of(call(mesh, *rest))
+    assert expected and any(array.size > 1 or array.dtype.kind == "f" for array in expected)
+    for found in (
+        call(V, F, *rest),
+        call(V.tolist(), F, *rest),
+        call(V, flat, *rest, offsets=offsets),
+        *([call(V, *rest, faces=F)] if name != "compare" and name != "denoise" else []),
+    ):
+        for one, other in zip(arrays_of(found), expected, strict=True):
+            np.testing.assert_array_equal(one, other)
+    for wrong in ((V,), (mesh, F) if name != "compare" else (mesh,)):
+        with pytest.raises(FrameletError):
+            call(*wrong, **({} if len(wrong) == 1 else {"offsets": offsets}))
+    assert [*inspect.signature(call).parameters][:2] in (["vertices", "faces"], ["mesh", "faces"])
+
+
+def test_every_public_function_is_one_of_a_mesh_or_needs_none():
+    others = {"split_bregman", "synthesize", "adjoint"}  # of a transform or coefficients
+    functions = {name for name in core.__all__ if inspect.isroutine(getattr(core, name))}
+    assert functions == (set(MESH_FUNCTIONS) | others) - {"FrameTransform"}
+    for name in functions:
+        names = set(inspect.signature(getattr(core, name)).parameters)
+        assert not names & {"rule", "blocks", "n_threads", "n_levels"}, name
+
+
+def test_old_calls_with_a_mesh_go_on(rng):
+    mesh = noisy(triangle_torus(), rng)
+    assert_same_bits(core.add_noise(mesh, 0.2, 1), core.add_noise(mesh, sigma=0.2, seed=1))
+    stencil = core.make_stencil(mesh, core.connect(mesh), "STRAIGHT", bank=BANKS["BOX_SPLINE_111"])
+    np.testing.assert_array_equal(stencil.slots, core.make_stencil(mesh).slots)
+    assert core.make_transform(mesh).frame == FrameTransform(mesh).frame == "BOX_SPLINE_111"
+    assert core.compare(mesh.vertices, mesh).rms_distance == 0.0
+
+
+@pytest.mark.parametrize("call", [FrameTransform, core.make_transform, core.analyze, core.equalize])
+def test_a_frame_that_the_stencil_replaces_is_refused(call):
+    mesh = triangle_torus()
+    more = {"gains": [0.5]} if call is core.equalize else {}
+    with pytest.raises(SettingError, match="frame is 'BOX_SPLINE_111', but has no effect with stencil="):
+        call(mesh, frame="box-spline-111", stencil="adaptive", **more)
+    call(mesh, frame="Pairwise", stencil="Adaptive", **more)
+
+
+@pytest.mark.parametrize(
+    ("values", "make", "frame"),
+    [
+        ({"method": "positions"}, triangle_torus, "BOX_SPLINE_111"),
+        ({"method": "positions"}, quad_torus, "LINEAR_SPLINE"),
+        ({"method": "positions"}, mixed_sheet, "ADAPTIVE"),
+        ({"method": "positions", "stencil": "adaptive"}, triangle_torus, "ADAPTIVE"),
+        ({"preset": "tri-2", "stencil": "adaptive"}, triangle_torus, "ADAPTIVE"),
+        ({"method": "positions", "frame": "pairwise"}, triangle_torus, "PAIRWISE"),
+        ({"method": "positions", "frame": "pairwise", "stencil": "adaptive"}, triangle_torus, "PAIRWISE"),
+        ({"method": "positions", "frame": BANKS["B_SPLINE_1"]}, quad_torus, "B_SPLINE_1"),
+        ({"method": "bilateral"}, triangle_torus, ""),
+        ({}, triangle_torus, ""),
+    ],
+)
+def test_the_report_names_the_frame_that_ran(values, make, frame, rng):
+    assert denoise(noisy(make(), rng), **values).report.frame == frame
+
+
+def test_a_stop_while_preparing_is_a_public_exception_and_no_error():
+    with pytest.raises(core.Stopped) as caught:
+        core.prepare(triangle_torus(), should_stop=lambda: True)
+    assert not isinstance(caught.value, FrameletError)
+    assert denoise(triangle_torus(), should_stop=lambda: True).report.is_stopped

@@ -87,3 +87,86 @@ def test_noise_beyond_all_numbers_is_refused():
         core.add_noise(mesh, 10**400)
     with pytest.raises(SettingError, match="full_output is array"):
         denoise(mesh, full_output=np.zeros(3))
+
+
+NO_NUMBER = [None, "x", [1, 2], {}, True, b"1", np.zeros((2, 2)), [[1.0], [1.0, 2.0]], object(), 1j]
+"""What is neither a number nor a word that is known."""
+
+
+def calls_with(mesh, W):
+    """Return the public functions, each with the names of its arguments, and a call of it with one wrong."""
+    coefficients = W.analyze(mesh.vertices)
+    prox, bank = core.SoftThreshold(0.1), core.BANKS["B_SPLINE_1"]
+    frame, threads = "frame stencil boundary", "threads"
+    transform = f"{frame} levels connectivity {threads} dtype"
+    banks = {"name": "MINE", "lattice": "ANY", "offsets": bank.offsets, "masks": bank.masks}
+    return {
+        "add_noise": ("sigma seed", lambda **wrong: core.add_noise(mesh, **wrong)),
+        "analyze": ("frame stencil levels", lambda **wrong: core.analyze(mesh, **wrong)),
+        "bilateral_filter": (
+            "iterations tolerance sigma_c sigma_s boundary threads",
+            lambda **wrong: core.bilateral_filter(mesh, **wrong),
+        ),
+        "compare": ("reference", lambda **wrong: core.compare(mesh, **wrong)),
+        "connect": (threads, lambda **wrong: core.connect(mesh, **wrong)),
+        "denoise": (
+            "method strength noise passes boundary threads",
+            lambda **wrong: denoise(mesh, **wrong),
+        ),
+        "equalize": (
+            f"gains {frame} {threads} dtype",
+            lambda **wrong: core.equalize(mesh, **{"gains": [0.5], **wrong}),
+        ),
+        "estimate_noise": (f"connectivity {threads}", lambda **wrong: core.estimate_noise(mesh, **wrong)),
+        "make_stencil": (
+            "stencil boundary bank level threads",
+            lambda **wrong: core.make_stencil(mesh, **wrong),
+        ),
+        "make_transform": (transform, lambda **wrong: core.make_transform(mesh, **wrong)),
+        "FrameTransform": (
+            transform.replace("connectivity ", ""),
+            lambda **wrong: core.FrameTransform(mesh, **wrong),
+        ),
+        "noise_field": ("after", lambda **wrong: core.noise_field(mesh, **wrong)),
+        "prepare": ("settings dtype previous block_size", lambda **wrong: core.prepare(mesh, **wrong)),
+        "PreparationCache": ("max_bytes", core.PreparationCache),
+        "split_bregman": (
+            "vertices transform prox penalty mu delta iterations tolerance callback",
+            lambda **wrong: core.split_bregman(
+                **{"vertices": mesh.vertices, "transform": W, "prox": prox, **wrong}
+            ),
+        ),
+        "SoftThreshold": ("weight kind", lambda **wrong: core.SoftThreshold(**{"weight": 1.0, **wrong})),
+        "HardThreshold": ("weight kind", lambda **wrong: core.HardThreshold(**{"weight": 1.0, **wrong})),
+        "FirmThreshold": (
+            "weight limit kind",
+            lambda **wrong: core.FirmThreshold(**{"weight": 1.0, "limit": 2.0, **wrong}),
+        ),
+        "FilterBank": ("lattice offsets masks", lambda **wrong: core.FilterBank(**{**banks, **wrong})),
+        "synthesize": ("coefficients", core.synthesize),
+        "adjoint": ("coefficients", core.adjoint),
+        "W.analyze": ("vertices", W.analyze),
+        "W.synthesize": ("coefficients", W.synthesize),
+        "W.weighted_adjoint": ("coefficients", W.weighted_adjoint),
+        "W.frame_bounds": ("steps", W.frame_bounds),
+        "coefficients": ("given", lambda given: W.adjoint([coefficients[0], given])),
+    }
+
+
+OPTIONAL = {"connectivity", "settings", "previous", "penalty", "callback", "bank", "dtype"}
+"""Arguments for which None is what was not given."""
+
+
+@pytest.mark.parametrize("name", calls_with(triangle_torus(), core.FrameTransform(triangle_torus())))
+def test_every_argument_of_every_public_function_is_checked(name):
+    mesh = triangle_torus()
+    names, call = calls_with(mesh, core.FrameTransform(mesh))[name]
+    for argument in names.split():
+        for value in NO_NUMBER:
+            is_right = value is None and argument in OPTIONAL
+            if is_right or (argument == "gains" and type(value) in (list, bytes)):  # which are gains
+                continue
+            with pytest.raises(core.FrameletError) as caught:
+                call(**{argument: value})
+            sentence = str(caught.value)
+            assert "\n" not in sentence and sentence.endswith(".") and len(sentence) < 400, sentence

@@ -13,8 +13,10 @@ from typing import NamedTuple
 import checkout  # noqa: F401
 import numpy as np
 from cases import mesh_folder
-from framelet.core import SurfaceMesh, connect, make_transform
+from framelet.core import SurfaceMesh
 from framelet.core.blocks import Blocks
+from framelet.core.mesh.connectivity import connect
+from framelet.core.transform import make_transform
 from mesh_files import read_mesh
 from meshes import noisy, quad_torus, triangle_torus
 

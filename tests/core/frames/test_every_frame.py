@@ -70,15 +70,13 @@ def test_a_bank_of_ones_own_passes(rng):
 )
 def test_auto_takes_what_fits(shape, frame):
     mesh = SHAPES[shape]()
-    assert (
-        FrameTransform(mesh).frame == FrameTransform((mesh.vertices, faces_of(mesh)), "Auto").frame == frame
-    )
+    assert FrameTransform(mesh).frame == FrameTransform(mesh.vertices, faces_of(mesh), "Auto").frame == frame
 
 
 def test_what_does_not_fit_is_refused():
     mesh = SHAPES["quad torus"]()
     transform = FrameTransform(mesh, "linear-spline", 2)
-    with pytest.raises(FrameError, match="The frame is 'NONE'; choose one of BOX_SPLINE_111, "):
+    with pytest.raises(FrameError, match="The frame is 'NONE'; choose one of AUTO, BOX_SPLINE_111, "):
         FrameTransform(mesh, "none")
     with pytest.raises(MeshError, match=r"shape \(41, 3\); the transform needs \(42, 3\)"):
         transform.analyze(mesh.vertices[:-1])

@@ -155,7 +155,7 @@ INFINITE[1, 1] = np.inf
 @pytest.mark.parametrize(
     ("lattice", "offsets", "masks", "message"),
     [
-        ("HEXAGONS", TAPS, MASKS, "BAD: the lattice is 'HEXAGONS'; it must be TRIANGLES"),
+        ("HEXAGONS", TAPS, MASKS, "BAD: the lattice is 'HEXAGONS'; choose one of TRIANGLES"),
         ("TRIANGLES", TAPS.ravel(), MASKS, r"BAD: the offsets have shape \(14,\); expected \(T, 2\)"),
         ("TRIANGLES", TAPS[:, :1], MASKS, r"BAD: the offsets have shape \(7, 1\); expected \(T, 2\)"),
         ("TRIANGLES", TAPS[:6], MASKS, r"BAD: the masks have shape \(7, 7\); expected \(B, 6\)"),

@@ -7,11 +7,10 @@ from itertools import permutations
 import numpy as np
 import pytest
 from checks import read_only
-from framelet.core import make_stencil
 from framelet.core.blocks import Blocks
 from framelet.core.frames import BANKS
 from framelet.core.mesh.connectivity import connect
-from framelet.core.stencils import straight
+from framelet.core.stencils import make_stencil, straight
 from framelet.core.stencils.builder import StencilBuilder
 from meshes import (
     MESHES,
@@ -226,7 +225,7 @@ def test_flat_border_of_a_regular_grid_has_no_second_differences():
 
 def test_an_unknown_rule_is_refused():
     mesh = triangle_grid()
-    with pytest.raises(ValueError, match=r"stencil rule is 'BEST'; choose one of MEAN, STRAIGHT"):
+    with pytest.raises(ValueError, match=r"The stencil is 'BEST'; choose one of MEAN, STRAIGHT"):
         make_stencil(mesh, connect(mesh), "BEST")
 
 
