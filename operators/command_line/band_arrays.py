@@ -107,7 +107,7 @@ def band_arrays(
             "cell_owner": cells.owner,
             "n_quad_cells": np.array(cells.n_quads, np.int32),
         }
-    texts = {"frame": frame, "stencil": stencil, "boundary": settings.boundary}
+    texts = {"frame": transform.frame, "stencil": stencil, "boundary": settings.boundary}
     return (
         arrays
         | {key: np.array(text) for key, text in texts.items()}

@@ -65,6 +65,8 @@ def fill_report(properties: FrameletReport, measured: Mapping[str, MeasuredRepor
     _fill_belief(properties, measured.values())
     texts = {_parameters_text(report) for report in reports}
     properties.parameters = texts.pop() if len(texts) == 1 else "Different for each"
+    frames = {report.frame for report in reports}
+    properties.frame = frames.pop() if len(frames) == 1 else ""
     noises = [report.noise for report in reports if report.noise is not None]
     properties.has_noise = len(noises) == len(reports)
     if not properties.has_noise:

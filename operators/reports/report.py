@@ -142,6 +142,11 @@ class FrameletReport(BeliefMixin, bpy.types.PropertyGroup):
     parameters: StringProperty(
         name="Parameters", description="What was taken from the measured noise; empty if nothing was"
     )
+    frame: StringProperty(
+        name="Frame That Ran",
+        description="Name of the frame that ran, also where the mesh decided; empty if there was none or "
+        "objects had different ones",
+    )
     hints: StringProperty(
         name="Hints", description="What made the result other than expected, and the way out, a line each"
     )

@@ -41,7 +41,25 @@ def test_report_counts_scene_units():
     assert report.n_vertices == core.n_vertices and report.n_moved == core.n_moved
     assert report.boundary_vertices == core.boundary_vertices > 0
     assert report.irregular_vertices == core.irregular_vertices > 0
+    assert report.frame == core.frame == "BOX_SPLINE_111"
     assert not report.is_closed
+
+
+def test_report_names_the_frame_that_ran():
+    """Of triangles, of quads, of both together, and of an engine without any."""
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=3)
+    triangles = bpy.context.object
+    bpy.ops.mesh.primitive_grid_add()
+    quads = bpy.context.object
+    for objects, preset, frame in (
+        ([triangles], "POSITIONS", "BOX_SPLINE_111"),
+        ([quads], "POSITIONS", "LINEAR_SPLINE"),
+        ([triangles, quads], "POSITIONS", ""),
+        ([quads], "BILATERAL", ""),
+    ):
+        select_only(*objects)
+        bpy.ops.object.framelet_denoise(preset=preset)
+        assert last_report().frame == frame
 
 
 def test_report_with_another_scale_on_each_axis():

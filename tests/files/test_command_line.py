@@ -65,6 +65,20 @@ def test_without_blender(source, tmp_path):
     assert report["objects"][0]["name"] == "in"
 
 
+@pytest.mark.parametrize(
+    ("words", "frame"),
+    [
+        ((), ""),
+        (("--preset", "positions"), "ADAPTIVE"),  # the file has polygons
+        (("--preset", "tri-2"), "BOX_SPLINE_111"),
+        (("--preset", "tri-2", "--stencil", "adaptive"), "ADAPTIVE"),
+    ],
+)
+def test_the_report_names_the_frame_that_ran(command, source, tmp_path, words, frame):
+    assert command("denoise", source, tmp_path / "out.ply", *words, "--report", tmp_path / "r.json").code == 0
+    assert json.loads((tmp_path / "r.json").read_text())["objects"][0]["frame"] == frame
+
+
 def test_a_file_for_blender_alone_is_refused_without_it(tmp_path):
     (tmp_path / "in.blend").write_bytes(b"BLENDER")
     process = start("denoise", tmp_path / "in.blend", tmp_path / "out.ply")

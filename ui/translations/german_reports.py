@@ -145,6 +145,12 @@ TEXTS = {
     "What was taken from the measured noise; empty if nothing was": (
         "Was aus dem gemessenen Rauschen genommen wurde; leer, wenn nichts"
     ),
+    "Frame That Ran": "Verwendeter Frame",
+    "Name of the frame that ran, also where the mesh decided; empty if there was none or objects had different "
+    "ones": (
+        "Name des Frames, der verwendet wurde, auch wo das Netz entschied; leer, wenn es keinen gab oder die Objekte "
+        "verschiedene hatten"
+    ),
     "Seconds for all objects": "Sekunden für alle Objekte",
     "The object that was compared; empty before the first time": (
         "Das verglichene Objekt; leer vor dem ersten Mal"

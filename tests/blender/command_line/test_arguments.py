@@ -84,6 +84,11 @@ def test_options_without_effect_are_refused(key, item):
             "--mu has no effect with --tuning noise, which takes it from the measured noise; "
             "leave one of them out.",
         ),
+        (
+            ["--preset", "positions", "--stencil", "adaptive", "--frame", "linear-spline"],
+            "--frame has no effect with --stencil adaptive, which has masks of its own; "
+            "leave one of them out.",
+        ),
     ],
 )
 def test_the_sentence_says_what_to_do(fails, words, sentence):
