@@ -55,14 +55,16 @@ def denoise(
 
 
 @overload
-def denoise(mesh: ArrayLike, faces: ArrayLike, **options: Any) -> Any: ...
+def denoise(
+    mesh: ArrayLike, faces: ArrayLike, settings: DenoiseSettings | str | None = None, **options: Any
+) -> Any: ...
 
 
 def denoise(
     mesh: SurfaceMesh | ArrayLike,
-    faces: ArrayLike | DenoiseSettings | None = None,
+    faces: ArrayLike | DenoiseSettings | str | None = None,
+    settings: DenoiseSettings | str | None = None,
     *,
-    settings: DenoiseSettings | None = None,
     preset: str | None = None,
     offsets: ArrayLike | None = None,
     movable: ArrayLike | None = None,
@@ -84,8 +86,8 @@ def denoise(
         Positions, or a mesh for those who use it again; not modified.
     faces : array_like of int, shape (F, k), or list of lists
         The vertices of each face. Beside a `SurfaceMesh`: settings, or the name of a preset.
-    settings : DenoiseSettings, optional
-        The method and its parameters; by default those of the preset AUTO.
+    settings : DenoiseSettings or str, optional
+        The method and its parameters, or the name of a preset; by default AUTO.
     preset : str, optional
         Name of a preset, in any case: one of `PRESETS`, such as "auto", "free-form" or "tri-2".
     offsets : array_like of int, shape (F + 1,), optional

@@ -53,6 +53,8 @@ def test_arrays_and_a_mesh_are_the_same_run(make, rng):
         full = denoise(mesh.vertices.tolist(), given, full_output=True, dtype=np.float64, **more)
         assert full.report.n_vertices == mesh.n_vertices and full.vertices.dtype == np.float64
     assert_same_bits(denoise(mesh, full_output=False), denoise(mesh).vertices)
+    other = denoise(mesh, "tri-2" if make is triangle_torus else "positions")
+    assert_same_bits(denoise(mesh.vertices, faces, other.report.settings), other.vertices)
 
 
 def test_settings_by_name_preset_and_object_are_the_same_run(rng):
