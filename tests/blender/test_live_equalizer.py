@@ -178,7 +178,7 @@ def counted(monkeypatch):
         return original(*arguments, **options)
 
     monkeypatch.setattr(equalizer, "make_transform", make_transform)
-    monkeypatch.setattr("framelet.core.make_transform", make_transform, raising=False)
+    monkeypatch.setattr("framelet.core.transform.make_transform", make_transform)
     return made
 
 

@@ -104,7 +104,7 @@ def test_perfect_reconstruction_of_every_frame_and_level(frame, n_levels, rng):
     mesh = read_only(noisy(union(*parts), rng))
     connectivity = connect(mesh)
     assert connectivity.is_loose.any() and connectivity.is_non_manifold.any()
-    for rule in ("MEAN", "STRAIGHT", "ADAPTIVE") if frame == "BOX_SPLINE_111" else ("MEAN", "STRAIGHT"):
+    for rule in ("MEAN", "STRAIGHT", "ADAPTIVE") if frame == "ADAPTIVE" else ("MEAN", "STRAIGHT"):
         for boundary in ("ALONG", "FREE") if rule == "MEAN" else ("FIXED", "FREE"):
             options = {"n_levels": n_levels, "slack": 4.0, "single": (rule, boundary) == ("STRAIGHT", "FREE")}
             assert_perfect(mesh, frame, rule, boundary, connectivity, **options)
