@@ -29,6 +29,7 @@ LARGEST = 200
 )
 def test_every_frame_on_any_mesh(mesh, frame, levels, stencil, seed):
     assume(0 < mesh.n_vertices <= LARGEST)
+    assume(stencil != "ADAPTIVE" or frame in FAMILIES)  # which it replaces
     rng = np.random.default_rng(seed)
     # Rounding must not choose between neighbors: ties are broken by far more.
     points = mesh.vertices + rng.normal(0, 0.05, mesh.vertices.shape)
