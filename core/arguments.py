@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from .errors import MeshError, SettingError
 from .mesh.surface_mesh import SurfaceMesh
-from .settings import INFOS, PRESETS, DenoiseSettings, check_counts, check_used
+from .settings import INFOS, PRESETS, DenoiseSettings, check_effect, check_used
 from .value_checks import check_choice, shown
 
 Rest = ParamSpec("Rest")
@@ -104,7 +104,7 @@ def as_identifier(word: Any) -> Any:
 def check_frame(frame: Any, stencil: Any) -> None:
     """Raise SettingError if a frame is asked for that the stencil replaces."""
     given = {"method": "POSITIONS", "tuning": "GIVEN", "frame": frame, "stencil": stencil}
-    check_counts(SimpleNamespace(**given), "frame")
+    check_effect(SimpleNamespace(**given), "frame")
 
 
 def as_settings(
@@ -157,5 +157,5 @@ def as_settings(
     found = base.with_changes(**changes)
     for each, value in changes.items():  # what was given by name counts, the default value too
         check_used(INFOS[each], found.method, each, value)
-        check_counts(found, each)
+        check_effect(found, each)
     return found

@@ -4,7 +4,7 @@
 
 from .choices import METHODS
 from .denoise_settings import DEFAULT_PRESET, INFOS, PRESETS, DenoiseSettings, check_setting, used_settings
-from .effects import check_counts, check_used, replaced_by
+from .effects import check_effect, check_used, replaced_by
 from .setting_info import SettingInfo
 
 __all__ = [
@@ -14,7 +14,7 @@ __all__ = [
     "PRESETS",
     "DenoiseSettings",
     "SettingInfo",
-    "check_counts",
+    "check_effect",
     "check_setting",
     "check_used",
     "replaced_by",

@@ -85,7 +85,7 @@ def check_used(info: SettingInfo, method: str, name: str, value: Any) -> None:
         )
 
 
-def check_counts(settings: Any, name: str) -> None:
+def check_effect(settings: Any, name: str) -> None:
     """Raise SettingError if another setting replaces one that was given."""
     entry = replaced_by(settings, name)
     if entry is not None:
