@@ -20,7 +20,7 @@ def main() -> int:
     """Train, and return the exit code."""
     parser = argparse.ArgumentParser(prog="python -m training", description=__doc__)
     parser.add_argument("--folder", type=Path, default=ROOT / "build" / "training", help="all that is made")
-    parser.add_argument("--shapes", type=int, default=1620, help="number of meshes")
+    parser.add_argument("--shapes", type=int, default=1500, help="number of meshes")
     parser.add_argument("--minutes", type=float, default=240, help="time for each net, in all runs together")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--start", type=Path, help="folder of checkpoints to start from, such as training")

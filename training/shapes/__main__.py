@@ -57,7 +57,7 @@ def main() -> int:
     """Make the meshes asked for."""
     parser = argparse.ArgumentParser(prog="python -m training.shapes", description=__doc__)
     parser.add_argument("--out", type=Path, required=True, help="folder of the .npz files")
-    parser.add_argument("--count", type=int, default=1620, help="number of meshes")
+    parser.add_argument("--count", type=int, default=1500, help="number of meshes")
     parser.add_argument("--first", type=int, default=0, help="index of the first mesh")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--keep", action="store_true", help="leave files that exist")

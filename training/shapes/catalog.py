@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from .cells import make_bars, make_hexes
 from .islands import make_islands
 from .marching import make_marching
 from .mesh import Mesh, bends, condition, flipped, select_faces, volume
@@ -68,11 +67,6 @@ FIRST_CUTOUT = 1350
 
 CUTOUT_FAMILIES = {"organic": (make_cutout, 1.0)}
 
-FIRST_GRID = 1500
-"""Number of the first mesh of cells of a grid."""
-
-GRID_FAMILIES = {"bars": (make_bars, 1.0), "hexes": (make_hexes, 1.0)}
-
 N_TRIES = 6
 LEAST_FACES, LEAST_COARSE = 3000, 350
 MOST_FACES = 26000
@@ -91,12 +85,10 @@ def family_of(index: int) -> str:
 
 def is_coarse(index: int) -> bool:
     """Return whether a mesh is one of those whose surface bends a lot from face to face."""
-    return FIRST_COARSE <= index < FIRST_SCANNED or FIRST_TINY <= index < FIRST_CUTOUT or index >= FIRST_GRID
+    return FIRST_COARSE <= index < FIRST_SCANNED or FIRST_TINY <= index < FIRST_CUTOUT
 
 
 def _families(index: int) -> dict:
-    if index >= FIRST_GRID:
-        return GRID_FAMILIES
     if index >= FIRST_CUTOUT:
         return CUTOUT_FAMILIES
     if index >= FIRST_TINY:
@@ -107,10 +99,10 @@ def _families(index: int) -> dict:
 
 
 def _target(rng, index: int) -> int:
-    if FIRST_CUTOUT <= index < FIRST_GRID:
+    if index >= FIRST_CUTOUT:
         return int(log_uniform(rng, 7000, 16000))
     if is_coarse(index):
-        return int(log_uniform(rng, 500, 1500 if FIRST_TINY <= index < FIRST_CUTOUT else 4500))
+        return int(log_uniform(rng, 500, 4500 if index < FIRST_TINY else 1500))
     return int(log_uniform(rng, 6000, 14000) if chance(rng, 0.8) else log_uniform(rng, 4200, 22000))
 
 

@@ -7,8 +7,7 @@ from __future__ import annotations
 import numpy as np
 
 from .blender import dissolved, quadriflow, quads_joined, with_modifiers
-from .cells import cage
-from .mesh import Mesh, area, from_faces, from_lists, largest_island, triangulated
+from .mesh import Mesh, area, condition, from_faces, from_lists, largest_island, triangulated
 from .noise import Noise, chance, log_uniform, octaves
 from .organic import bend, make_organic, project, smooth_body
 from .parts import solid_part, to_mesh
@@ -27,6 +26,40 @@ def _voxel(rng, target: int) -> Mesh:
     mesh = with_modifiers(mesh, ("REMESH", {"mode": "VOXEL", "voxel_size": size, "use_smooth_shade": False}))
     mesh = largest_island(mesh)
     return with_relief(rng, mesh, int(rng.integers(1, 3)), 5.0) if chance(rng, 0.2) else mesh
+
+
+def cage(rng) -> Mesh:
+    """Make a blocky cage: the outside of a few cubes of a grid that touch in faces only."""
+    shape = rng.integers(2, 5, 3)
+    full = np.zeros(shape + 2, bool)
+    place = shape // 2
+    for _ in range(rng.integers(3, 14)):
+        full[tuple(place + 1)] = True
+        axis = rng.integers(3)
+        place = place.copy()
+        place[axis] = np.clip(place[axis] + rng.choice([-1, 1]), 0, shape[axis] - 1)
+    faces = []
+    corners = {}
+
+    def corner(point):
+        return corners.setdefault(tuple(point), len(corners))
+
+    for cell in np.argwhere(full):
+        for axis in range(3):
+            for side in (0, 1):
+                step = np.eye(3, dtype=int)[axis] * (2 * side - 1)
+                if full[tuple(cell + step)]:
+                    continue
+                a, b = np.eye(3, dtype=int)[(axis + 1) % 3], np.eye(3, dtype=int)[(axis + 2) % 3]
+                origin = cell + np.eye(3, dtype=int)[axis] * side
+                ring = [origin, origin + a, origin + a + b, origin + b]
+                faces.append([corner(p) for p in (ring if side else ring[::-1])])
+    points = np.array(list(corners), float)
+    if condition(from_faces(points, np.array(faces)))[1:] != (0, 0, 0):
+        # Two cubes met in an edge or a corner only.
+        return cage(rng)
+    points = points + rng.normal(size=points.shape) * rng.uniform(0, 0.22)
+    return from_faces(points * rng.uniform(0.6, 1.4, 3), np.array(faces))
 
 
 def _levels(mesh: Mesh, target: int) -> int:
