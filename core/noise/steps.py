@@ -28,6 +28,9 @@ FLAT = 0.1
 LEAST_SLOPES = 0.01
 """Share of the surface that looks along no axis on all but boxes and voxels."""
 
+ROUNDED_SLOPES = 0.2
+"""The same on rounded shapes: where less slopes, planes are those of a part, or of voxels that may be meant."""
+
 WIDEST_STEP = 2.0
 """Steps of more mean edge lengths are those of a shape: there are slopes of several edges between them."""
 
@@ -99,8 +102,7 @@ def rounding_noise(surface: SurfaceMesh) -> float:
     steps /= mean_edge_length(surface)
     vectors, area, axis = _aligned(surface)
     total = area.sum()
-    # What is made of planes along the axes is a box, or voxels that may be meant.
-    if steps.max() > WIDEST_STEP or not area[axis == 3].sum() > LEAST_SLOPES * total:
+    if steps.max() > WIDEST_STEP or not area[axis == 3].sum() > ROUNDED_SLOPES * total:
         return 0.0
     along = (vectors * vectors / np.maximum(area, np.finfo(float).tiny)[:, None]).sum(axis=0) / total
     return float(np.sqrt((steps * steps * along).sum() / 12))
