@@ -9,6 +9,7 @@ from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import StringProperty
 
+from .context_objects import active_object, selected_objects
 from .mesh_io import mesh_bridge
 from .preview import targets
 from .properties.scene_units import length_text, surface_in_scene
@@ -66,14 +67,15 @@ class OBJECT_OT_framelet_compare(bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Ask for an active mesh."""
-        obj = context.active_object
+        obj = active_object(context)
         if obj is None or obj.type != "MESH":
             return targets.allows(cls, n_("The active object must be a mesh"))
         return True
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Compare, and keep the result for the sidebar."""
-        obj = context.active_object
+        obj = active_object(context)
+        assert obj is not None  # see `poll`
         try:
             other = self._find_other(context)
             with shortage_told(obj.name):
@@ -105,12 +107,11 @@ class OBJECT_OT_framelet_compare(bpy.types.Operator):
             if found is None:
                 raise ValueError(f"‘{self.other}’ is not an object of this scene.")
             return found
-        others = [
-            obj for obj in context.selected_objects if obj.type == "MESH" and obj != context.active_object
-        ]
+        active = active_object(context)
+        assert active is not None  # see `poll`
+        others = [obj for obj in selected_objects(context) if obj.type == "MESH" and obj != active]
         if len(others) != 1:
             raise ValueError(
-                f"‘{context.active_object.name}’ needs one other selected mesh to compare with; "
-                f"{len(others)} are selected."
+                f"‘{active.name}’ needs one other selected mesh to compare with; {len(others)} are selected."
             )
         return others[0]

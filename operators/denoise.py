@@ -127,7 +127,11 @@ class OBJECT_OT_framelet_denoise(SettingsMixin, OutputMixin, RegionMixin, bpy.ty
         from .properties.unused_values import unused_sentences
         from .run.denoise_run import DenoiseRun, begin_run
 
-        settings = to_settings(self)
+        try:
+            settings = to_settings(self)
+        except ValueError as error:
+            self.report({"ERROR"}, str(error))
+            return False
         if bpy.app.background or not (self.options.is_invoke or self.options.is_repeat):
             # Only a script names what has no effect; the sidebar does not show it.
             for sentence in unused_sentences(self, settings):

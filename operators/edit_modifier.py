@@ -9,6 +9,8 @@ from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from .mesh_io import mesh_bridge
+from .mesh_io.own_names import kind_refusal
+from .mesh_io.typed_attributes import typed_attribute
 from .modifier.attributes import read_numbers, write_numbers
 from .modifier.inputs import set_input
 from .modifier.node_groups import MASK
@@ -112,7 +114,7 @@ class OBJECT_OT_framelet_sculpt_mask(bpy.types.Operator):
 
 def has_sculpt_mask(obj: bpy.types.Object) -> bool:
     """Tell whether a mesh has a mask of Sculpt Mode."""
-    return SCULPT_MASK in obj.data.attributes
+    return typed_attribute(obj.data, SCULPT_MASK, "FLOAT", "POINT") is not None
 
 
 def take_sculpt_mask(obj: bpy.types.Object) -> None:
@@ -126,6 +128,9 @@ def take_sculpt_mask(obj: bpy.types.Object) -> None:
     reason = mesh_bridge.ownership_refusal(obj)
     if reason is None and not has_sculpt_mask(obj):
         reason = f"‘{obj.name}’ has no mask of Sculpt Mode; paint one, or choose a vertex group."
+    if reason is None and COPIED_MASK in obj.vertex_groups:
+        reason = f"The vertex group {COPIED_MASK} of ‘{obj.name}’ is in the way of the copy; rename it."
+    reason = reason or kind_refusal(obj, COPIED_MASK)
     if reason is not None:
         raise ValueError(reason)
     write_numbers(obj.data, COPIED_MASK, 1.0 - read_numbers(obj, SCULPT_MASK))

@@ -54,7 +54,8 @@ def _after_load(*_: object) -> None:
     """Put right a file that Blender saved by itself while a preview was on, or that is of another version."""
     kept_original.put_all_back()
     for scene in bpy.data.scenes:
-        replace_lost(scene.framelet)
+        for name in ("framelet", "framelet_bands", "framelet_equalizer", "framelet_heat_map"):
+            replace_lost(getattr(scene, name))
     for obj in filter(has_own, bpy.data.objects):
         replace_lost(obj.framelet)
 

@@ -63,8 +63,8 @@ def show_heat(
 def refresh_heat(context: bpy.types.Context, objects: Iterable[bpy.types.Object]) -> None:
     """Bring heat maps up to date after a run; the colors of objects that it did not treat stay.
 
-    Where that cannot be, as in Edit Mode, where attributes cannot be written, colors and legend are of the
-    run before, and the legend goes.
+    Where that cannot be, as in Edit Mode, where attributes cannot be written, or with a range that is no
+    number, colors and legend are of the run before, and the legend goes.
     """
     from .colors.heat_values import QUANTITIES, heat_values
 
@@ -75,8 +75,11 @@ def refresh_heat(context: bpy.types.Context, objects: Iterable[bpy.types.Object]
     if any(obj.mode != "OBJECT" or not run_memory.is_remembered(obj) for obj in colored):
         shown.objects.clear()
         return
-    found = {obj.name: heat_values(obj, shown.quantity) for obj in colored}
-    show_heat(context, found, shown.quantity, context.scene.framelet_heat_map)
+    try:
+        found = {obj.name: heat_values(obj, shown.quantity) for obj in colored}
+        show_heat(context, found, shown.quantity, context.scene.framelet_heat_map)
+    except ValueError:
+        shown.objects.clear()
 
 
 def _heat_limit(properties: Any, found: dict[str, BandValues], quantity: str) -> float:

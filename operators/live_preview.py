@@ -7,6 +7,7 @@ from __future__ import annotations
 import bpy
 from bpy.app.translations import pgettext_n as n_
 
+from .context_objects import active_object
 from .preview import targets
 from .preview.current_preview import current_preview, end_preview, is_too_large, start_preview
 from .properties.own_settings import settings_of
@@ -27,7 +28,7 @@ class OBJECT_OT_framelet_preview(bpy.types.Operator):
         """Ask for an active mesh in Object Mode, unless the preview is on."""
         if current_preview() is not None:
             return True
-        obj = context.active_object
+        obj = active_object(context)
         reason = None
         if current_run() is not None:
             reason = IS_RUNNING
@@ -67,7 +68,7 @@ class OBJECT_OT_framelet_preview(bpy.types.Operator):
             end_preview()
             return {"FINISHED"}
         try:
-            start_preview(context.active_object, context.scene)
+            start_preview(active_object(context), context.scene)
         except ValueError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}

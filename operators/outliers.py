@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import bmesh
 import bpy
@@ -12,6 +12,7 @@ from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.settings.outliers import SPIKE_LENGTH, SPIKE_VERTICES
+from .context_objects import active_object
 from .mesh_io import mesh_bridge
 from .modifier.recipes import DISPLACEMENT
 from .modifier.stack import find_modifier
@@ -48,6 +49,13 @@ class SpikeMixin:
         max=1000,
         soft_max=50,
     )
+
+
+class Found(NamedTuple):
+    """An object, and which of its vertices are to be selected, shape (N,)."""
+
+    obj: bpy.types.Object
+    chosen: NDArray[np.bool_]
 
 
 def select_vertices(obj: bpy.types.Object, chosen: NDArray[np.bool_]) -> None:
@@ -108,34 +116,45 @@ def _select_on_targets(
     find: Callable[[SurfaceMesh], NDArray[np.bool_]],
     found: str,
 ) -> set[str]:
-    """Select, in Edit Mode, what is found of every target; `found` is the sentence that says how much."""
-    from .modifier.multires import find_multires
+    """Select, in Edit Mode, what is found of every target; `found` is the sentence that says how much.
+
+    The mode is changed only once there is something to select.
+    """
     from .run.shape import check_cage
 
-    objects = targets.target_objects(context)
-    if not any(obj.data.is_editmode for obj in objects) and any(
-        find_multires(obj) is None for obj in objects
-    ):
-        refusal = mesh_bridge.ownership_refusal(context.active_object)
+    def look(obj: bpy.types.Object, _progress: targets.Progress) -> Found:
+        check_cage(obj, "selection")
+        return Found(obj, find(mesh_bridge.read_surface(obj)))
+
+    done = targets.run_on_targets(operator, context, look)
+    if not done:
+        return {"CANCELLED"}
+    if context.mode != "EDIT_MESH":
+        active = active_object(context)
+        refusal = mesh_bridge.ownership_refusal(active)
+        if active is not None and refusal is None and not _is_edit_mode_entered(active):
+            refusal = (
+                f"‘{active.name}’, the active object, cannot be in Edit Mode; make it local and visible."
+            )
         if refusal is not None:
             operator.report({"ERROR"}, refusal)
             return {"CANCELLED"}
-        bpy.ops.object.mode_set(mode="EDIT")
-
-    def select(obj: bpy.types.Object, _progress: targets.Progress) -> int:
-        check_cage(obj, "selection")
-        chosen = find(mesh_bridge.read_surface(obj))
-        select_vertices(obj, chosen)
-        return int(chosen.sum())
-
     context.tool_settings.mesh_select_mode = (True, False, False)
-    done = targets.run_on_targets(operator, context, select)
-    if not done:
-        return {"CANCELLED"}
-    operator.report(
-        {"INFO"}, rpt_(found).format(number=sum(done.values()), names=targets.names_text(list(done)))
-    )
+    for obj, chosen in done.values():
+        if obj.data.is_editmode:
+            select_vertices(obj, chosen)
+    number = sum(int(item.chosen.sum()) for item in done.values())
+    operator.report({"INFO"}, rpt_(found).format(number=number, names=targets.names_text(list(done))))
     return {"FINISHED"}
+
+
+def _is_edit_mode_entered(obj: bpy.types.Object) -> bool:
+    """Switch to Edit Mode; return whether Blender does so."""
+    try:
+        bpy.ops.object.mode_set(mode="EDIT")
+    except RuntimeError:
+        return False
+    return bool(obj.data.is_editmode)
 
 
 class OBJECT_OT_framelet_select_spikes(SpikeMixin, bpy.types.Operator):

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from ..mesh_io.mesh_facts import is_on_cells
-from ..properties.scene_units import linear_part, surface_in_scene
+from ..properties.scene_units import linear_part, surface_in_scene, turning
 from .bands import StoredBands, find_note_cells, read_bands
 
 if TYPE_CHECKING:
@@ -132,13 +132,12 @@ def _check(obj: bpy.types.Object, stored: StoredBands, choice: BandChoice) -> No
 
 def _normals(obj: bpy.types.Object, stored: StoredBands) -> NDArray[np.float64]:
     """Return the unit vertex normals of the analyzed surface with the object's scale, shape (N, 3)."""
-    import numpy as np
 
     from ...core.mesh.geometry import vertex_normals
 
     surface = surface_in_scene(obj, stored.surface.with_vertices(stored.rest))
     # A mirrored object turns its faces over.
-    return vertex_normals(surface) * np.sign(np.linalg.det(linear_part(obj)))
+    return vertex_normals(surface) * turning(linear_part(obj))
 
 
 def _mean_over_cells(stored: StoredBands, values: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -103,8 +103,8 @@ class HeatMixin(RangeMixin):
 
 def shown_heat_names(properties: Any, quantity: str) -> tuple[str, ...]:
     """Return the names of a `HeatMixin` that count with its present range and a quantity."""
-    unit = QUANTITIES[quantity].unit
-    more = {"PERCENTILE": "percentile", "FIXED": LIMITS[unit]}
+    unit = QUANTITIES[quantity].unit if quantity in QUANTITIES else ""  # an unknown one in a file
+    more = {"PERCENTILE": "percentile", "FIXED": LIMITS.get(unit)}
     shown = ("range_rule", more.get(properties.range_rule), TOLERANCES.get(unit))
     return tuple(name for name in HEAT_NAMES if name in shown)
 

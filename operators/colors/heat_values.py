@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, NamedTuple
 from bpy.app.translations import pgettext_n as n_
 
 from ..mesh_io.band_storage import NOISE, NOISE_WIDTH
-from ..properties.scene_units import linear_part, surface_in_scene
+from ..mesh_io.own_names import kind_refusal, names_refusal
+from ..properties.scene_units import linear_part, surface_in_scene, turning
 from ..run.run_memory import recall
 
 if TYPE_CHECKING:
@@ -60,6 +61,9 @@ def heat_values(obj: bpy.types.Object, quantity: str) -> BandValues:
     """
     from ..bands.band_values import BandValues
 
+    reason = names_refusal(obj) or kind_refusal(obj, QUANTITIES[quantity].attribute)
+    if reason is not None:
+        raise ValueError(reason)
     run, surface, _ = recall(obj)
     before = surface_in_scene(obj, surface.with_vertices(run.before))
     after = surface_in_scene(obj, surface.with_vertices(run.after))
@@ -80,5 +84,5 @@ def heat_values(obj: bpy.types.Object, quantity: str) -> BandValues:
     if quantity == "LENGTH":
         return BandValues(obj, np.sqrt(np.square(moved).sum(axis=1)))
     # The normals of the result, which is what one looks at; those from before are noisy themselves.
-    outwards = vertex_normals(after) * np.sign(np.linalg.det(linear_part(obj)))
+    outwards = vertex_normals(after) * turning(linear_part(obj))
     return BandValues(obj, (moved * outwards).sum(axis=1))

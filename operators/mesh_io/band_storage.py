@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from ...core.settings import DenoiseSettings
 from ..properties.setting_values import FRAME_NAMES
 from .mesh_bridge import ownership_refusal
-from .own_names import remove_attribute
+from .own_names import is_own, remove_own
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -88,14 +88,15 @@ def has_note(mesh: bpy.types.Mesh) -> bool:
 
 def has_colors(mesh: bpy.types.Mesh) -> bool:
     """Tell whether a mesh has the colors of a band or a heat map."""
-    return COLORS in mesh.attributes or HEAT_COLORS in mesh.attributes
+    found = (mesh.attributes.get(name) for name in (COLORS, HEAT_COLORS))
+    return any(item is not None and is_own(item) for item in found)
 
 
 def has_traces(mesh: bpy.types.Mesh) -> bool:
     """Tell whether there is anything to remove."""
-    return (
-        NOTE in mesh or COLORS_BEFORE in mesh or any(_OURS.fullmatch(item.name) for item in mesh.attributes)
-    )
+    if NOTE in mesh or COLORS_BEFORE in mesh:
+        return True
+    return any(_OURS.fullmatch(item.name) and is_own(item) for item in mesh.attributes)
 
 
 def write_note(mesh: bpy.types.Mesh, note: BandNote) -> None:
@@ -184,9 +185,10 @@ def read_vectors(obj: bpy.types.Object, name: str, domain: str) -> NDArray[np.fl
 
 
 def write_numbers(obj: bpy.types.Object, name: str, values: NDArray[np.floating]) -> None:
-    """Write an attribute of numbers at the vertices, shape (N,), in the place of any of that name.
+    """Write an attribute of numbers at the vertices, shape (N,).
 
-    A vertex group of that name, which somebody made of it, stays instead: both cannot be.
+    A vertex group of that name, which somebody made of it, or an attribute of another kind stays instead:
+    both cannot be.
     """
     import numpy as np
 
@@ -194,9 +196,8 @@ def write_numbers(obj: bpy.types.Object, name: str, values: NDArray[np.floating]
     if name in obj.vertex_groups:
         return
     attribute = mesh.attributes.get(name)
-    if attribute is not None and (attribute.data_type, attribute.domain) != ("FLOAT", "POINT"):
-        remove_attribute(mesh, name)
-        attribute = None
+    if attribute is not None and not is_own(attribute):
+        return
     attribute = attribute or mesh.attributes.new(name, "FLOAT", "POINT")
     attribute.data.foreach_set("value", np.ascontiguousarray(values, np.float32))
 
@@ -205,6 +206,8 @@ def write_colors(
     mesh: bpy.types.Mesh, colors: NDArray[np.float32], name: str = COLORS, domain: str = "POINT"
 ) -> None:
     """Write colors, and make them those that are shown and rendered; others of Framelet's are removed.
+
+    `own_names.names_refusal` gives no reason against it.
 
     Parameters
     ----------
@@ -223,8 +226,8 @@ def write_colors(
         attribute = mesh.attributes.get(other)
         if attribute is None:
             continue
-        if other != name or (attribute.data_type, attribute.domain) != ("FLOAT_COLOR", domain):
-            remove_attribute(mesh, other)
+        if other != name or attribute.domain != domain:
+            remove_own(mesh, other)
     if name not in mesh.attributes:
         mesh.color_attributes.new(name, "FLOAT_COLOR", domain)
     mesh.attributes[name].data.foreach_set("color", colors.reshape(-1))
@@ -245,8 +248,12 @@ def remove_colors(mesh: bpy.types.Mesh) -> None:
     _remove(mesh, (COLORS, HEAT_COLORS))
     if COLORS_BEFORE not in mesh:
         return
-    active, default = list(mesh[COLORS_BEFORE])
+    names = mesh[COLORS_BEFORE]
+    names = list(names) if hasattr(names, "__iter__") else []
     del mesh[COLORS_BEFORE]
+    if len(names) != 2 or not all(isinstance(name, str) for name in names):
+        return  # somebody altered the note
+    active, default = names
     mesh.attributes.active_color_name = active
     mesh.attributes.default_color_name = default
     mesh.update()
@@ -258,9 +265,9 @@ def remove_noise(mesh: bpy.types.Mesh) -> None:
 
 
 def _remove(mesh: bpy.types.Mesh, names: Iterable[str]) -> None:
-    """Remove attributes by name, where they are there."""
+    """Remove attributes of ours by name, where they are there."""
     for name in names:
-        remove_attribute(mesh, name)
+        remove_own(mesh, name)
 
 
 def remove_object_colors(obj: bpy.types.Object) -> None:

@@ -10,6 +10,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from .typed_attributes import typed_attribute, typed_values
+
 if TYPE_CHECKING:
     import bpy
     import numpy as np
@@ -29,11 +31,9 @@ def read_face_sets(mesh: bpy.types.Mesh) -> NDArray[np.int32]:
     """Return the number of the face set of each face, shape (F,)."""
     import numpy as np
 
-    numbers = np.full(len(mesh.polygons), DEFAULT, np.int32)
-    attribute = mesh.attributes.get(FACE_SET)
-    if attribute is not None:
-        attribute.data.foreach_get("value", numbers)
-    return numbers
+    if typed_attribute(mesh, FACE_SET, "INT", "FACE") is None:
+        return np.full(len(mesh.polygons), DEFAULT, np.int32)
+    return typed_values(mesh, FACE_SET, "INT", "FACE")
 
 
 def vertices_of_face_set(

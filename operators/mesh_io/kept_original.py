@@ -17,6 +17,7 @@ import bmesh
 import bpy
 
 from .own_names import remove_attribute
+from .typed_attributes import typed_attribute
 
 if TYPE_CHECKING:
     import numpy as np
@@ -35,16 +36,21 @@ PRECISION = 1e-5
 def keep(mesh: bpy.types.Mesh, original: NDArray[np.float32], shown: NDArray[np.float32]) -> None:
     """Keep the original positions, shape (N, 3), of a mesh in Object Mode, and what it shows instead."""
     for name, positions in zip(NAMES, (original, shown), strict=True):
-        attribute = mesh.attributes.get(name)
-        if attribute is None or (attribute.data_type, attribute.domain) != ("FLOAT_VECTOR", "POINT"):
+        attribute = typed_attribute(mesh, name, "FLOAT_VECTOR", "POINT")
+        if attribute is None:
             remove_attribute(mesh, name)
             attribute = mesh.attributes.new(name, "FLOAT_VECTOR", "POINT")
         attribute.data.foreach_set("vector", positions.reshape(-1))
 
 
 def has_kept(mesh: bpy.types.Mesh) -> bool:
-    """Tell whether a mesh has an original."""
-    return ORIGINAL in mesh.attributes
+    """Tell whether a mesh has an original, or what is left of one."""
+    return any(name in mesh.attributes for name in NAMES)
+
+
+def has_both(mesh: bpy.types.Mesh) -> bool:
+    """Tell whether a mesh has an original and what it showed instead, both at its vertices."""
+    return all(typed_attribute(mesh, name, "FLOAT_VECTOR", "POINT") for name in NAMES)
 
 
 def forget(mesh: bpy.types.Mesh) -> None:
@@ -139,12 +145,16 @@ def _linear_map(source: NDArray[np.float64], target: NDArray[np.float64]) -> NDA
 
 
 def _read_mesh(mesh: bpy.types.Mesh, name: str) -> NDArray[np.float32]:
-    """Read vectors at the vertices, shape (N, 3); zeros where there are none of this name."""
+    """Read vectors at the vertices, shape (N, 3); zeros where there are none of this name.
+
+    Nodes that were applied may have brought the original to other elements, where it is of no use.
+    """
     import numpy as np
 
     vectors = np.zeros((len(mesh.vertices), 3), np.float32)
-    if name in mesh.attributes and len(vectors):
-        mesh.attributes[name].data.foreach_get("vector", vectors.reshape(-1))
+    attribute = typed_attribute(mesh, name, "FLOAT_VECTOR", "POINT")
+    if attribute is not None and len(vectors):
+        attribute.data.foreach_get("vector", vectors.reshape(-1))
     return vectors
 
 

@@ -13,13 +13,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import bmesh
 import bpy
 
 from .own_names import names_refusal
 from .shape_keys import active_key, dependent_keys, read_key_points, write_key_points, write_positions
+from .typed_attributes import truth_values
 
 if TYPE_CHECKING:
     import numpy as np
@@ -123,7 +124,7 @@ def read_surface_and_movable(obj: bpy.types.Object) -> tuple[SurfaceMesh, NDArra
     with readable_mesh(obj) as mesh:
         if not obj.data.is_editmode:
             return read_arrays(mesh, active_key(obj)), None
-        movable = read_flag(mesh, ".select_vert") & ~read_flag(mesh, ".hide_vert")
+        movable = truth_values(mesh, ".select_vert") & ~truth_values(mesh, ".hide_vert")
         return read_arrays(mesh, None), movable
 
 
@@ -326,25 +327,3 @@ def read_positions(mesh: bpy.types.Mesh) -> NDArray[np.float32]:
     if len(vertices):
         mesh.attributes["position"].data.foreach_get("vector", vertices.reshape(-1))
     return vertices
-
-
-def read_flag(mesh: bpy.types.Mesh, name: str, *, of_faces: bool = False) -> NDArray[np.bool_]:
-    """Read truth values of vertices, or of faces; Blender leaves the attribute away when all are false."""
-    import numpy as np
-
-    values = np.zeros(len(mesh.polygons if of_faces else mesh.vertices), np.bool_)
-    attribute = mesh.attributes.get(name)
-    if attribute is not None:
-        attribute.data.foreach_get("value", values)
-    return values
-
-
-def read_edge_values(mesh: bpy.types.Mesh, name: str, dtype: str) -> NDArray[Any]:
-    """Read an attribute of edges, shape (E,); all false or 0 where there is none of this name."""
-    import numpy as np
-
-    values = np.zeros(len(mesh.edges), dtype)
-    attribute = mesh.attributes.get(name)
-    if attribute is not None and attribute.domain == "EDGE":
-        attribute.data.foreach_get("value", values)
-    return values

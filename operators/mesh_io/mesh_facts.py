@@ -99,7 +99,7 @@ def frame_label(frame: str, stencil: str) -> str:
 
 def resolve_frame(frame: str, facts: MeshFacts) -> str:
     """Return the frame that AUTO stands for, as `core.transform.choose_frame` does."""
-    if frame != "AUTO":
+    if frame != "AUTO" and frame in _LATTICES:
         return frame
     kinds = (facts.has_triangles, facts.has_quads, facts.has_others)
     return {(True, False, False): "BOX_SPLINE_111", (False, True, False): "LINEAR_SPLINE"}.get(
@@ -125,7 +125,7 @@ def misfit(frame: str, stencil: str, facts: MeshFacts) -> tuple[str, str] | None
         ERROR if the frame cannot be used, INFO if it can but is made for other faces; and a short reason.
         None if the frame fits.
     """
-    if frame == "AUTO" or stencil == "ADAPTIVE":
+    if frame not in _LATTICES or frame == "AUTO" or stencil == "ADAPTIVE":
         return None
     lattice = _LATTICES[frame]
     if lattice == "QUADS" and not facts.has_quads:

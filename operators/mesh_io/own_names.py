@@ -14,21 +14,68 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     import bpy
 
+_KINDS = (
+    (re.compile(r"framelet_(low|rest|displacement|level_\d+)"), "FLOAT_VECTOR", ("POINT",)),
+    (re.compile(r"framelet_L\d+_B\d+"), "FLOAT_VECTOR", ("POINT", "FACE", "EDGE")),
+    (re.compile(r"framelet_L\d+_B\d+_edges"), "FLOAT_VECTOR", ("EDGE",)),
+    (re.compile(r"framelet_band"), "FLOAT_COLOR", ("POINT",)),
+    (re.compile(r"framelet_heat_map"), "FLOAT_COLOR", ("POINT", "CORNER")),
+    (re.compile(r"framelet_(noise|noise_width|mask)"), "FLOAT", ("POINT",)),
+)
+"""Names of attributes, and the type and the domains of those that Framelet makes."""
+
 OWN = re.compile(
     r"framelet_(low|rest|L\d+_B\d+(_edges)?|band|heat_map|displacement|level_\d+)|\.framelet_(original|shown)"
 )
 """Numbers and masks that people may make groups of are not among them."""
 
 
+def is_own(attribute: bpy.types.Attribute) -> bool:
+    """Tell whether an attribute has a name of ours and is of the kind that we give it.
+
+    What has the name only was made, or converted, by somebody else, and is not ours to remove.
+    """
+    return any(
+        name.fullmatch(attribute.name) and attribute.data_type == data_type and attribute.domain in domains
+        for name, data_type, domains in _KINDS
+    )
+
+
 def names_refusal(obj: bpy.types.Object) -> str | None:
-    """Say in one sentence which vertex group of an object has a name of ours; None if none has."""
+    """Say in one sentence which group or attribute of an object only has a name of ours; None if none has."""
     for group in obj.vertex_groups:
         if OWN.fullmatch(group.name):
             return (
                 f"The vertex group ‘{group.name}’ of ‘{obj.name}’ has a name that Framelet gives to its own "
                 "data; rename the group."
             )
+    for attribute in obj.data.attributes:
+        reason = kind_refusal(obj, attribute.name)
+        if reason is not None and OWN.fullmatch(attribute.name):
+            return reason
     return None
+
+
+def kind_refusal(obj: bpy.types.Object, name: str) -> str | None:
+    """Say in one sentence why an attribute of one of our names is not ours; None if it is or is missing."""
+    attribute = obj.data.attributes.get(name)
+    if attribute is None or is_own(attribute):
+        return None
+    for pattern, data_type, domains in _KINDS:
+        if pattern.fullmatch(name):
+            return (
+                f"The attribute {name} of ‘{obj.name}’ is {attribute.data_type} on {attribute.domain} "
+                f"instead of {data_type} on {' or '.join(domains)}, as Framelet makes it; rename it or "
+                "remove it."
+            )
+    return None
+
+
+def remove_own(mesh: bpy.types.Mesh, name: str) -> None:
+    """Remove an attribute of one of our names, where it is there and ours."""
+    attribute = mesh.attributes.get(name)
+    if attribute is not None and is_own(attribute):
+        remove_attribute(mesh, name)
 
 
 def remove_attribute(mesh: bpy.types.Mesh, name: str) -> None:

@@ -11,6 +11,7 @@ from ..properties.scene_units import linear_part
 from . import mesh_bridge
 from .face_sets import vertices_of_face_set
 from .shape_keys import active_key
+from .typed_attributes import truth_values, typed_values
 
 if TYPE_CHECKING:
     import bpy
@@ -94,10 +95,10 @@ def _movable(
     obj: bpy.types.Object, mesh: bpy.types.Mesh, surface: SurfaceMesh, is_edited: bool, options: RegionOptions
 ) -> NDArray[np.bool_] | None:
     """Return which vertices may move; None for all."""
-    hidden = mesh_bridge.read_flag(mesh, HIDDEN)
+    hidden = truth_values(mesh, HIDDEN)
     if is_edited:
         # In Edit Mode hidden vertices are not selected.
-        movable = mesh_bridge.read_flag(mesh, SELECTED) & ~hidden
+        movable = truth_values(mesh, SELECTED) & ~hidden
         if not movable.any():
             raise ValueError(
                 f"‘{obj.name}’ has no selected vertices; select what should be denoised or measured."
@@ -137,7 +138,7 @@ def _vertices_of_hidden_faces(mesh: bpy.types.Mesh, surface: SurfaceMesh) -> NDA
     """Return the corners of hidden faces, as vertices, so that nothing changes that is not seen."""
     import numpy as np
 
-    hidden = mesh_bridge.read_flag(mesh, HIDDEN_FACE, of_faces=True)
+    hidden = truth_values(mesh, HIDDEN_FACE, "FACE")
     return surface.corner_vertex[np.repeat(hidden, np.diff(surface.face_offset))]
 
 
@@ -145,23 +146,30 @@ def _unmasked(mesh: bpy.types.Mesh) -> NDArray[np.float64] | None:
     """Return one minus the sculpt mask, shape (N,), from 0 to 1; None where nothing is masked."""
     import numpy as np
 
-    attribute = mesh.attributes.get(MASK)
-    if attribute is None:
-        return None
-    mask = np.zeros(len(mesh.vertices), np.float32)
-    attribute.data.foreach_get("value", mask)
+    mask = typed_values(mesh, MASK, "FLOAT", "POINT")
     return 1.0 - np.clip(mask.astype(np.float64), 0.0, 1.0) if mask.any() else None
 
 
 def _sharp_edges(mesh: bpy.types.Mesh, surface: SurfaceMesh) -> NDArray[np.int32]:
     """Return the edges that are marked sharp or creased, shape (E, 2)."""
-    is_sharp = mesh_bridge.read_edge_values(mesh, SHARP, "bool")
-    is_sharp |= mesh_bridge.read_edge_values(mesh, CREASE, "float32") > 0.0
+    is_sharp = truth_values(mesh, SHARP, "EDGE")
+    is_sharp |= typed_values(mesh, CREASE, "FLOAT", "EDGE") > 0.0
     return surface.edges[is_sharp]
 
 
 def _largest_scale(obj: bpy.types.Object) -> float:
-    """Return the largest scale of an object, so that no length in the scene is exceeded in any direction."""
+    """Return the largest scale of an object, so that no length in the scene is exceeded in any direction.
+
+    Raises
+    ------
+    ValueError
+        With a sentence that names the object, if that is not finite.
+    """
     import numpy as np
 
-    return float(np.linalg.norm(linear_part(obj), 2))
+    linear = linear_part(obj)
+    if not np.isfinite(linear).all():
+        raise ValueError(
+            f"The rotation or scale of ‘{obj.name}’ is not finite; set or clear it (Object > Clear)."
+        )
+    return float(np.linalg.norm(linear, 2))

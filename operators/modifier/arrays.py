@@ -68,17 +68,19 @@ def read_steps(obj: bpy.types.Object, surface: SurfaceMesh) -> tuple[Step, ...]:
         if any(below.type not in {"MIRROR", "ARRAY"} for below in modifiers_below(modifier)):
             break
         step = _matrix(obj, modifier, np.ptp(box, axis=0))
-        if modifier.use_merge_vertices:
+        if not np.isfinite(step).all():
+            break
+        # The motion of copies without a volume, as of an object scaled to 0, cannot be taken back.
+        if modifier.use_merge_vertices and np.linalg.matrix_rank(step) == 4:
             near = modifier.merge_threshold
             joints = tuple(_joint(step @ each, vertices, border, near) for each in images)
             relative = np.array(modifier.relative_offset_displace) * modifier.use_relative_offset
             found = tuple(joint for joint in joints if len(joint.first))
             if found:
                 steps.append(Step(step, found, relative != 0.0))
-        copies = [box]
-        for _ in range(_count(modifier, step) - 1):
-            copies.append(mapped(step, copies[-1]))
-        box = np.concatenate(copies)
+        if modifier == arrays[-1]:
+            break
+        box = _repeated(box, step, _count(modifier, step))
         images += [step @ each for each in images]
     return tuple(steps)
 
@@ -93,6 +95,18 @@ def mapped(matrix: NDArray[np.float64], points: NDArray[np.float64]) -> NDArray[
     """Return points, shape (n, 3), after an affine map, shape (4, 4)."""
     moved: NDArray[np.float64] = points @ matrix[:3, :3].T + matrix[:3, 3]
     return moved
+
+
+def _repeated(box: NDArray[np.float64], step: NDArray[np.float64], n_copies: int) -> NDArray[np.float64]:
+    """Return the points, shape (n, 3), that hold the copies of a box: of those along a line the outermost."""
+    import numpy as np
+
+    if np.array_equal(step[:3, :3], np.eye(3)):
+        return np.concatenate((box, box + (max(n_copies, 1) - 1) * step[:3, 3]))
+    copies = [box]
+    for _ in range(n_copies - 1):
+        copies.append(mapped(step, copies[-1]))
+    return np.concatenate(copies)
 
 
 def _matrix(

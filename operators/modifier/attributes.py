@@ -10,7 +10,8 @@ import bmesh
 
 from ..mesh_io import mesh_bridge
 from ..mesh_io.band_storage import topology_fingerprint
-from ..mesh_io.own_names import remove_attribute
+from ..mesh_io.own_names import is_own, remove_own
+from ..mesh_io.typed_attributes import typed_attribute
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -28,7 +29,7 @@ CAGE = "framelet_cage"
 
 
 def write_vectors(mesh: bpy.types.Mesh, name: str, vectors: NDArray[np.floating]) -> None:
-    """Write vectors, shape (N, 3), in the place of any attribute of that name."""
+    """Write vectors, shape (N, 3); `own_names.names_refusal` gives no reason against the name."""
     import numpy as np
 
     vectors = np.ascontiguousarray(vectors, np.float32)
@@ -41,7 +42,8 @@ def write_vectors(mesh: bpy.types.Mesh, name: str, vectors: NDArray[np.floating]
             vert[layer] = vector
         bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
         return
-    _free_attribute(mesh, name, "FLOAT_VECTOR").data.foreach_set("vector", vectors.reshape(-1))
+    attribute = mesh.attributes.get(name) or mesh.attributes.new(name, "FLOAT_VECTOR", "POINT")
+    attribute.data.foreach_set("vector", vectors.reshape(-1))
     mesh.update()
 
 
@@ -56,8 +58,8 @@ def read_vectors(mesh: bpy.types.Mesh, name: str) -> NDArray[np.float32]:
             return np.zeros((len(edit_mesh.verts), 3), np.float32)
         return np.array([vert[layer][:] for vert in edit_mesh.verts], np.float32).reshape(-1, 3)
     vectors = np.zeros((len(mesh.vertices), 3), np.float32)
-    attribute = mesh.attributes.get(name)
-    if attribute is not None and (attribute.data_type, attribute.domain) == ("FLOAT_VECTOR", "POINT"):
+    attribute = typed_attribute(mesh, name, "FLOAT_VECTOR", "POINT")
+    if attribute is not None:
         attribute.data.foreach_get("vector", vectors.reshape(-1))
     return vectors
 
@@ -74,24 +76,25 @@ def read_numbers(obj: bpy.types.Object, name: str) -> NDArray[np.float32]:
 
 
 def write_numbers(mesh: bpy.types.Mesh, name: str, numbers: NDArray[np.floating]) -> None:
-    """Write numbers, shape (N,), in the place of any attribute of that name, in Object Mode."""
+    """Write numbers, shape (N,), in Object Mode; `own_names.kind_refusal` gives no reason against it."""
     import numpy as np
 
-    _free_attribute(mesh, name, "FLOAT").data.foreach_set("value", np.ascontiguousarray(numbers, np.float32))
+    attribute = mesh.attributes.get(name) or mesh.attributes.new(name, "FLOAT", "POINT")
+    attribute.data.foreach_set("value", np.ascontiguousarray(numbers, np.float32))
     mesh.update()
 
 
 def remove_attributes(mesh: bpy.types.Mesh, names: Iterable[str]) -> None:
-    """Remove attributes of vertices by name, where they are there."""
+    """Remove attributes of vertices by name, where they are there and ours."""
     if mesh.is_editmode:
         verts = bmesh.from_edit_mesh(mesh).verts
         for layers in (verts.layers.float_vector, verts.layers.float):
             for name in names:
-                if name in layers:
+                if name in layers and is_own(mesh.attributes[name]):
                     layers.remove(layers[name])
         return
     for name in names:
-        remove_attribute(mesh, name)
+        remove_own(mesh, name)
     mesh.update()
 
 
@@ -111,7 +114,10 @@ def cage_change(mesh: bpy.types.Mesh, surface: SurfaceMesh) -> str:
     kept = mesh.get(CAGE)
     if kept is None:
         return ""
-    faces, positions = kept.split()
+    marks = str(kept).split()
+    if len(marks) != 2:
+        return "FACES"  # somebody altered them
+    faces, positions = marks
     now_faces, now_positions = _marks(surface).split()
     if faces != now_faces:
         return "FACES"
@@ -123,12 +129,3 @@ def _marks(surface: SurfaceMesh) -> str:
     from ..mesh_io.band_storage import position_fingerprint
 
     return f"{topology_fingerprint(surface)} {position_fingerprint(surface.vertices)}"
-
-
-def _free_attribute(mesh: bpy.types.Mesh, name: str, kind: str) -> bpy.types.Attribute:
-    """Return an attribute of the vertices; one of that name but of another kind is removed."""
-    attribute = mesh.attributes.get(name)
-    if attribute is not None and (attribute.data_type, attribute.domain) != (kind, "POINT"):
-        remove_attribute(mesh, name)
-        attribute = None
-    return attribute or mesh.attributes.new(name, kind, "POINT")

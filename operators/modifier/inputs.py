@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Framelet contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The inputs of a Geometry Nodes modifier by their names, in all versions of Blender.
+"""The inputs of Framelet's Geometry Nodes modifiers by their names, in all versions of Blender.
 
 Up to Blender 5.1 an input is a custom property of the modifier, afterwards a property of its own.
 """
@@ -9,13 +9,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from .node_groups import input_identifiers
+from .recipes import recipe_of
+
 if TYPE_CHECKING:
     import bpy
 
 
 def input_names(modifier: bpy.types.Modifier) -> list[str]:
     """Return the names of the inputs with values, in the order of the group."""
-    return [item.name for item in _sockets(modifier)]
+    return list(input_identifiers(recipe_of(modifier)))
 
 
 def get_input(modifier: bpy.types.Modifier, name: str) -> Any:
@@ -48,7 +51,7 @@ def input_property(modifier: bpy.types.Modifier, name: str) -> tuple[Any, str]:
 
     The path of keyframes and drivers begins with `owner.path_from_id()`, and goes on with the name.
     """
-    identifier = next(item.identifier for item in _sockets(modifier) if item.name == name)
+    identifier = input_identifiers(recipe_of(modifier))[name]
     if hasattr(modifier, "properties"):
         return getattr(modifier.properties.inputs, identifier), "value"
     return modifier, f'["{identifier}"]'
@@ -57,13 +60,3 @@ def input_property(modifier: bpy.types.Modifier, name: str) -> tuple[Any, str]:
 def input_values(modifier: bpy.types.Modifier) -> dict[str, Any]:
     """Return the values of all inputs, by name."""
     return {name: get_input(modifier, name) for name in input_names(modifier)}
-
-
-def _sockets(modifier: bpy.types.Modifier) -> list[bpy.types.NodeTreeInterfaceSocket]:
-    """Return the inputs of the group that have values."""
-    items = modifier.node_group.interface.items_tree
-    return [
-        item
-        for item in items
-        if item.item_type == "SOCKET" and item.in_out == "INPUT" and item.socket_type != "NodeSocketGeometry"
-    ]

@@ -50,7 +50,7 @@ def shared_group(recipe: Recipe) -> bpy.types.NodeTree:
     """Return the group of a recipe, which is made if there is none of this version in the file."""
     wanted = f"{recipe.kind} {VERSION}"
     for group in bpy.data.node_groups:
-        if group.library is None and group.get(KIND) == wanted:
+        if group.library is None and group.get(KIND) == wanted and has_inputs(group, recipe):
             return group
     group = bpy.data.node_groups.new(recipe.label, "GeometryNodeTree")
     group[KIND] = wanted
@@ -61,6 +61,29 @@ def shared_group(recipe: Recipe) -> bpy.types.NodeTree:
 def kind_of(group: bpy.types.NodeTree | None) -> str:
     """Return the kind of a group, of whatever version; empty if it is none of Framelet's."""
     return "" if group is None else str(group.get(KIND, "")).rpartition(" ")[0]
+
+
+def input_identifiers(recipe: Recipe) -> dict[str, str]:
+    """Return by name the identifiers that Blender gives to the inputs of a recipe's group.
+
+    Whoever renames an input does not change them.
+    """
+    names = [*(term.name for term in recipe.terms), MASK, INVERT, ON]
+    return {name: f"Socket_{number}" for number, name in enumerate(names, 2)}  # after output and geometry
+
+
+def has_inputs(group: bpy.types.NodeTree, recipe: Recipe) -> bool:
+    """Tell whether a group still has all inputs of its recipe, and of the types that they had."""
+    types = {MASK: "NodeSocketString", INVERT: "NodeSocketBool", ON: "NodeSocketBool"}
+    found = {
+        item.identifier: item.socket_type
+        for item in group.interface.items_tree
+        if item.item_type == "SOCKET" and item.in_out == "INPUT"
+    }
+    return all(
+        found.get(identifier) == types.get(name, "NodeSocketFloat")
+        for name, identifier in input_identifiers(recipe).items()
+    )
 
 
 def remove_unused() -> None:

@@ -7,6 +7,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ..mesh_io import custom_normals, mesh_bridge
+from ..mesh_io.own_names import is_own
 from . import attributes
 from .inputs import get_input
 from .node_groups import INVERT, MASK, ON
@@ -28,7 +29,9 @@ def has_modifier(obj: bpy.types.Object | None) -> bool:
 
 def has_traces(mesh: bpy.types.Mesh) -> bool:
     """Tell whether a mesh has attributes of Framelet's modifiers."""
-    return attributes.CAGE in mesh or any(OURS.fullmatch(item.name) for item in mesh.attributes)
+    return attributes.CAGE in mesh or any(
+        OURS.fullmatch(item.name) and is_own(item) for item in mesh.attributes
+    )
 
 
 def offset_of(obj: bpy.types.Object, kind: str) -> NDArray[np.float32] | None:
@@ -37,13 +40,28 @@ def offset_of(obj: bpy.types.Object, kind: str) -> NDArray[np.float32] | None:
     Raises
     ------
     ValueError
-        With a sentence that names the object, if the mask is of a kind that cannot be read.
+        With a sentence that names the object, if the mask is of a kind that cannot be read, or if anything is
+        not finite.
     """
     import numpy as np
 
     modifier = find_modifier(obj, kind)
     if modifier is None:
         return None
+    with np.errstate(invalid="ignore", over="ignore"):
+        offset = _offset(obj, modifier)
+    if not np.isfinite(offset).all():
+        raise ValueError(
+            f"The modifier ‘{modifier.name}’ of ‘{obj.name}’ moves vertices by what is not a finite number; "
+            "look at its values and its mask, or run it again."
+        )
+    return offset
+
+
+def _offset(obj: bpy.types.Object, modifier: bpy.types.Modifier) -> NDArray[np.float32]:
+    """Return what a modifier of ours adds to the vertices of its object, shape (N, 3)."""
+    import numpy as np
+
     total: NDArray[np.float32] | None = None
     for term in recipe_of(modifier).terms:
         factor = np.float32(get_input(modifier, term.name)) - np.float32(term.neutral)
@@ -68,6 +86,8 @@ def apply_modifier(obj: bpy.types.Object, kind: str) -> None:
     ValueError
         With a sentence that names the object. Everything is as it was.
     """
+    import numpy as np
+
     reason = mesh_bridge.refusal(obj) or _missing(obj, kind)
     if reason is not None:
         raise ValueError(reason)
@@ -75,7 +95,13 @@ def apply_modifier(obj: bpy.types.Object, kind: str) -> None:
     assert offset is not None  # `_missing` has looked
     surface = mesh_bridge.read_surface(obj)
     normals = custom_normals.read_normals(obj.data)
-    positions = mesh_bridge.write_vertices(obj, surface, surface.vertices + offset)
+    with np.errstate(over="ignore"):
+        moved = surface.vertices + offset
+    if (np.isinf(moved) & np.isfinite(surface.vertices)).any():
+        raise ValueError(
+            f"The modifiers of ‘{obj.name}’ move vertices beyond the largest number; look at their values."
+        )
+    positions = mesh_bridge.write_vertices(obj, surface, moved)
     if normals is not None:
         custom_normals.settle_normals(obj.data, normals, surface, positions)
     remove_modifier(obj, kind)

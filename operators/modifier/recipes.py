@@ -7,7 +7,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from .node_groups import Recipe, Term, kind_of
+from .node_groups import Recipe, Term, has_inputs, kind_of
 
 if TYPE_CHECKING:
     import bpy
@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 DISPLACEMENT, EQUALIZER = "displacement", "equalizer"
 
 AMOUNT = "Amount"
+
+_LEVELS = re.compile(r"[1-9]\d?")
 
 DENOISE_RECIPE = Recipe(
     DISPLACEMENT,
@@ -58,9 +60,24 @@ def equalizer_recipe(n_levels: int) -> Recipe:
 
 
 def recipe_of(modifier: bpy.types.Modifier) -> Recipe:
-    """Return the recipe of one of Framelet's modifiers."""
-    kind, _, number = kind_of(modifier.node_group).partition(" ")
-    return DENOISE_RECIPE if kind == DISPLACEMENT else equalizer_recipe(int(number))
+    """Return the recipe of one of Framelet's modifiers, as `stack.find_modifier` gives them."""
+    recipe = known_recipe(modifier.node_group)
+    assert recipe is not None
+    return recipe
+
+
+def known_recipe(group: bpy.types.NodeTree | None) -> Recipe | None:
+    """Return the recipe of a node group; None if it is none of Framelet's, or lost inputs that it had."""
+    if group is None:
+        return None
+    kind, _, number = kind_of(group).partition(" ")
+    if kind == DISPLACEMENT and not number:
+        recipe = DENOISE_RECIPE
+    elif kind == EQUALIZER and _LEVELS.fullmatch(number):
+        recipe = equalizer_recipe(int(number))
+    else:
+        return None
+    return recipe if has_inputs(group, recipe) else None
 
 
 OURS = re.compile(r"framelet_displacement|framelet_level_\d+|framelet_mask")

@@ -13,6 +13,7 @@ import bpy
 
 from .inputs import input_values, refresh, set_input
 from .node_groups import Recipe, kind_of, remove_unused, shared_group
+from .recipes import known_recipe
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -74,6 +75,12 @@ def attach(
 def place_refusal(obj: bpy.types.Object, kind: str) -> str | None:
     """Say in one sentence why an object of the mesh has no place for a modifier of a kind; None if all do."""
     for each in _users(obj.data):
+        broken = next((other for other in each.modifiers if _is_broken(other, kind)), None)
+        if broken is not None:
+            return (
+                f"The nodes of the modifier ‘{broken.name}’ of ‘{each.name}’ lost inputs that Framelet made; "
+                "remove the modifier first."
+            )
         first = next((other for other in each.modifiers if other.type in FIRST), None)
         if first is not None and find_modifier(each, kind) is None:
             return (
@@ -122,4 +129,12 @@ def _users(mesh: bpy.types.Mesh) -> Iterator[bpy.types.Object]:
 
 def _kind(modifier: bpy.types.Modifier) -> str:
     """Return the kind of a modifier's group; empty if it is none of Framelet's."""
-    return kind_of(modifier.node_group) if modifier.type == "NODES" else ""
+    recipe = known_recipe(modifier.node_group) if modifier.type == "NODES" else None
+    return "" if recipe is None else recipe.kind
+
+
+def _is_broken(modifier: bpy.types.Modifier, kind: str) -> bool:
+    """Tell whether a modifier was of a kind, until somebody took inputs from its nodes."""
+    if modifier.type != "NODES" or _kind(modifier):
+        return False
+    return kind_of(modifier.node_group).partition(" ")[0] == kind

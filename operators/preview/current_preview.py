@@ -100,7 +100,11 @@ def tick_preview() -> bool:
     if is_mesh_being_read():
         return True
     values = settings_of(session.find_object(), bpy.context.scene)
-    is_on = session.tick(to_settings(values), to_region_options(values))
+    try:
+        is_on = session.tick(to_settings(values), to_region_options(values))
+    except ValueError as error:  # settings that a script made no numbers of
+        session.end(str(error))
+        is_on = False
     state = (session.is_current, session.message, round(session.fraction, 1))
     if state != _drawn or not is_on:
         _drawn = state

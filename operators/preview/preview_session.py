@@ -162,6 +162,7 @@ class PreviewSession:
         mesh = find_mesh(self.mark)
         if self.is_on and not self._is_suspended and mesh is not None:
             self._is_suspended = True
+            self._keep_again(mesh)
             if kept_original.has_kept(mesh):
                 kept_original.put_back(mesh)
 
@@ -182,6 +183,7 @@ class PreviewSession:
         ways that leave unknown where its vertices were.
         """
         if self._close(message):
+            self._keep_again(find_mesh(self.mark))
             kept_original.put_all_back()
 
     def leave(self) -> None:
@@ -230,6 +232,15 @@ class PreviewSession:
             self.message = message
             self._source.close()
         return was_on
+
+    def _keep_again(self, mesh: bpy.types.Mesh | None) -> None:
+        """Keep the original once more, if somebody took the attributes from a mesh that shows the preview."""
+        import numpy as np
+
+        if mesh is None or mesh.is_editmode or kept_original.has_both(mesh):
+            return
+        if np.array_equal(mesh_bridge.read_positions(mesh), self._shown, equal_nan=True):
+            kept_original.keep(mesh, self._original, self._shown)
 
     def _read_again(self, options: RegionOptions) -> None:
         """Read where vertices may move, on the original; with options that do not fit, show it."""

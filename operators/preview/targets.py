@@ -11,6 +11,7 @@ import bpy
 from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
+from ..context_objects import active_object, edited_objects, selected_objects
 from ..mesh_io.band_storage import has_note
 from ..shortage import shortage_told
 from .current_preview import end_preview
@@ -56,12 +57,12 @@ def target_objects(context: bpy.types.Context) -> list[bpy.types.Object]:
     key is the one that the user sees.
     """
     if context.mode == "EDIT_MESH":
-        return list(context.objects_in_mode_unique_data)
+        return edited_objects(context)
+    active = active_object(context)
     if context.mode != "OBJECT":
-        active = context.active_object
         return [] if active is None or active.type != "MESH" else [active]
-    selected = [obj for obj in context.selected_objects if obj.type == "MESH"]
-    selected.sort(key=lambda obj: obj != context.active_object)
+    selected = [obj for obj in selected_objects(context) if obj.type == "MESH"]
+    selected.sort(key=lambda obj: obj != active)
     return list({obj.data: obj for obj in reversed(selected)}.values())[::-1]
 
 

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from ..context_objects import active_object
 from . import setting_values
 from .region_values import REGION_NAMES
 from .setting_values import PROPERTY_NAMES, write_quietly
@@ -41,7 +42,7 @@ def settings_of(obj: bpy.types.Object | None, scene: bpy.types.Scene) -> Any:
 
 def shown_settings(context: bpy.types.Context) -> Any:
     """Return the settings that the sidebar shows."""
-    return settings_of(context.active_object, context.scene)
+    return settings_of(active_object(context), context.scene)
 
 
 def has_own(obj: bpy.types.Object) -> bool:
@@ -103,6 +104,8 @@ def _follow(settings: Any, name: str, context: bpy.types.Context) -> None:
             else:
                 remember_settings(obj, settings)
             settings = obj.framelet
+        elif isinstance(owner, type(scene)):
+            return  # another scene, which has its own
         write_quietly(settings, "is_own", True)
         _copy(settings, scene.framelet)
         for each in OF_ONE_OBJECT:

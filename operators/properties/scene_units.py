@@ -118,6 +118,14 @@ def surface_in_scene(obj: bpy.types.Object, surface: SurfaceMesh) -> SurfaceMesh
     return surface.with_vertices(surface.vertices.astype(np.float64) @ part.T)
 
 
+def turning(linear: NDArray[np.float64]) -> float:
+    """Return -1 where a rotation and scale, shape (3, 3), turn faces over, else 1; 0 without a volume."""
+    import numpy as np
+
+    with np.errstate(invalid="ignore", over="ignore"):
+        return float(np.sign(np.linalg.det(linear)))
+
+
 def noise_text(scene: bpy.types.Scene, sigma: float, sigma_edges: float, is_impulsive: bool) -> str:
     """Return the measured noise in words; `sigma` is in scene units."""
     from bpy.app.translations import pgettext_rpt as rpt_

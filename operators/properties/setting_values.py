@@ -77,7 +77,7 @@ def all_values(properties: Any) -> dict[str, Any]:
     """
     rna = getattr(properties, "properties", properties)
     changes = {name: as_typed(getattr(rna, name)) for name in SETTING_NAMES if rna.is_property_set(name)}
-    base = PRESETS[rna.preset if rna.preset != CUSTOM else DEFAULT_PRESET].settings
+    base = PRESETS.get(rna.preset, PRESETS[DEFAULT_PRESET]).settings
     return vars(base) | changes
 
 
@@ -93,10 +93,14 @@ def to_settings(properties: Any) -> DenoiseSettings:
 
 
 def replace_lost(properties: Any) -> None:
-    """Take the default engine where a file names one that is gone, with the values of the preset."""
-    if not properties.method:
-        preset = properties.preset if properties.preset != CUSTOM else DEFAULT_PRESET
-        fill(properties, PRESETS[preset].settings, keep=("threads",))
+    """Take the defaults where a file names choices that are gone; for an engine, with the preset's values."""
+    lost = [item.identifier for item in properties.bl_rna.properties if item.type == "ENUM"]
+    lost = [name for name in lost if not getattr(properties, name)]
+    for name in lost:
+        properties.property_unset(name)
+    if "method" in lost:
+        preset = PRESETS.get(properties.preset, PRESETS[DEFAULT_PRESET])
+        fill(properties, preset.settings, keep=("threads",))
 
 
 def copy_settings(source: Any, target: Any) -> None:

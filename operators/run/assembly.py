@@ -154,6 +154,12 @@ def assemble(jobs: Sequence[DenoiseJob]) -> Assembly:
         if len(jobs) > 1:
             assert job.origin is not None  # `read_job` has set it
             linear, origin = job.linear, job.origin
+            place = np.column_stack((linear, origin))
+            if not np.isfinite(place).all() or np.linalg.matrix_rank(linear) < 3:
+                raise ValueError(
+                    f"‘{job.name}’ is flat by its scale, or at no place in the scene, so that it cannot be "
+                    "denoised together with others; set its scale and location."
+                )
         border = border_vertices(job.surface)
         surface, seams = _on_planes(job.surface, job.mirrors, border)
         start = sum(each.surface.n_vertices for each in placements)

@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
+from ...core.value_checks import check_number
 from ..mesh_io import custom_normals
 from ..mesh_io.region_bridge import read_region
 from ..mesh_io.shape_keys import read_followers
@@ -71,6 +72,7 @@ def read_job(
     ValueError
         With a sentence that names the object, if it cannot be edited or nothing may move.
     """
+    check_number("Amount", amount, 0.0, 2.0)
     if obj.mode == "SCULPT" and output == MODIFIER:
         output = IN_PLACE  # Blender shows no modifier of this kind there, and brushes change the mesh itself
     reason = refusal(obj, output)

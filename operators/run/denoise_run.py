@@ -171,7 +171,8 @@ class DenoiseRun:
     def finish(self) -> list[Written]:
         """Write the results of a run that is ready, and return what was done.
 
-        Where there is no memory to write, `failures` says so; a run that could write nothing has FAILED.
+        Where there is no memory to write, or Blender does not take a result, `failures` says so; a run that
+        could write nothing has FAILED.
         """
         if self.state is not State.READY:
             raise RuntimeError(f"The run cannot be finished: {self.state.value}.")
@@ -184,10 +185,10 @@ class DenoiseRun:
                 try:
                     with shortage_told(obj.name):
                         reserve_for_writing(obj)
+                    output = write_outcome(obj, job, outcome)
                 except ValueError as error:
                     self.failures.append(str(error))
                     continue
-                output = write_outcome(obj, job, outcome)
                 measured = with_amount(outcome.measured, output.amount)
                 written.append(Written(obj, output.obj, measured, output.note))
         if not written:

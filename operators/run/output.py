@@ -149,10 +149,17 @@ def write_level(
     Takes what `write_output` takes. A modifier that adds to the mesh would not reach the level, so that the
     output MODIFIER is as IN_PLACE.
     """
-    if output == NEW_OBJECT:
-        obj = _add_copy(obj)
     vertices = surface.vertices + amount * (vertices.astype("float64") - surface.vertices)
-    reshape(obj, vertices)
+    copy = _add_copy(obj) if output == NEW_OBJECT else None
+    obj = copy or obj
+    try:
+        reshape(obj, vertices)
+    except ValueError:
+        if copy is not None:
+            import bpy
+
+            bpy.data.meshes.remove(copy.data)  # and the copy with it
+        raise
     note = rpt_("level {level} of Multires, the finest, was denoised")
     return WrittenOutput(obj, vertices.astype("float32"), note.format(level=finest_level(obj)), amount)
 
@@ -212,8 +219,8 @@ def _write_key(
 
     What the value of a key blends in is the difference to the shape that was denoised, whatever else is
     mixed.
-    So a key of a run before that is relative to the same one is replaced, with the value that it has; all
-    others of earlier runs are set to 0, since two results at once are too much.
+    So a key of a run before that is relative to the same one is replaced, with the value that it has, unless
+    it is locked; all others of earlier runs are set to 0, since two results at once are too much.
     """
     notes = [note] if note else []
     base = active_key(obj)
@@ -221,7 +228,7 @@ def _write_key(
         base = obj.shape_key_add(name="Basis", from_mix=False)
     blocks = obj.data.shape_keys.key_blocks
     earlier = [key for key in blocks if _KEY_NAMES.fullmatch(key.name) and key != base]
-    key = next((each for each in earlier if each.relative_key == base), None)
+    key = next((each for each in earlier if each.relative_key == base and not each.lock_shape), None)
     if key is None:
         key = obj.shape_key_add(name=KEY_NAME, from_mix=False)
         key.relative_key = base

@@ -176,6 +176,11 @@ def test_the_noise_map_is_in_scene_units_and_its_width_in_edges(torus):
 
 def test_the_noise_stays_as_a_mask_until_all_is_cleared(torus):
     torus.data.attributes.new("framelet_noise", "INT", "FACE")  # as a script may have done
+    with pytest.raises(
+        RuntimeError, match="framelet_noise of ‘Torus’ is INT on FACE instead of FLOAT on POINT"
+    ):
+        bpy.ops.object.framelet_heat_map(quantity="NOISE")
+    torus.data.attributes["framelet_noise"].name = "script"
     bpy.ops.object.framelet_heat_map(quantity="NOISE")
     first = numbers(torus, "framelet_noise")
     bpy.ops.object.framelet_denoise(preset="TRI_1")
