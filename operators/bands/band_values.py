@@ -7,7 +7,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
+from ..mesh_io.band_storage import COLORS
 from ..mesh_io.mesh_facts import is_on_cells
+from ..mesh_io.own_names import kind_refusal
 from ..properties.scene_units import linear_part, surface_in_scene, turning
 from .bands import StoredBands, find_note_cells, read_bands
 
@@ -76,6 +78,9 @@ def choose_values(obj: bpy.types.Object, choice: BandChoice) -> BandValues:
         With a sentence that names the object, if its bands cannot be read or there is no such band.
     """
     stored = read_bands(obj)
+    reason = kind_refusal(obj, COLORS)
+    if reason is not None:
+        raise ValueError(reason)
     _check(obj, stored, choice)
     import numpy as np
 

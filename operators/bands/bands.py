@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from ..mesh_io import band_storage, mesh_bridge
 from ..mesh_io.band_storage import LOW, REST, BandNote, band_name
 from ..mesh_io.mesh_facts import find_facts, is_on_cells, resolve_frame, stored_bytes
+from ..mesh_io.own_names import kind_refusal
 from ..modifier import offsets
 from ..run.shape import check_cage
 from .transforms import transform_of
@@ -98,6 +99,9 @@ def analyze_object(
         With a sentence that names the object. The mesh is as it was.
     """
     check_cage(obj, "bands that are kept", "press Equalize, or ")
+    reason = kind_refusal(obj, band_storage.BANDS)
+    if reason is not None:
+        raise ValueError(reason)
     import numpy as np
 
     from ...core.mesh.checks import check_surface

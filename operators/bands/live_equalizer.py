@@ -7,6 +7,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ..mesh_io import mesh_bridge
+from ..mesh_io.own_names import kind_refusal
 from ..modifier import attributes
 from ..modifier.node_groups import MASK
 from ..modifier.offsets import offset_of, remove_modifier
@@ -57,7 +58,7 @@ def make_live(
     check_cage(obj, "bands that are kept", "press Equalize, or ")
     if obj.mode != "OBJECT":
         raise ValueError(f"‘{obj.name}’: the live equalizer is made in Object Mode; leave the mode first.")
-    reason = place_refusal(obj, EQUALIZER)
+    reason = kind_refusal(obj, r"framelet_level_\d+") or place_refusal(obj, EQUALIZER)
     if reason is not None:
         raise ValueError(reason)
     cage = mesh_bridge.read_surface(obj)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from bpy.app.translations import pgettext_n as n_
 
-from ..mesh_io.band_storage import NOISE, NOISE_WIDTH
+from ..mesh_io.band_storage import HEAT_COLORS, NOISE, NOISE_WIDTH
 from ..mesh_io.own_names import kind_refusal, names_refusal
 from ..properties.scene_units import linear_part, surface_in_scene, turning
 from ..run.run_memory import recall
@@ -61,7 +61,7 @@ def heat_values(obj: bpy.types.Object, quantity: str) -> BandValues:
     """
     from ..bands.band_values import BandValues
 
-    reason = names_refusal(obj) or kind_refusal(obj, QUANTITIES[quantity].attribute)
+    reason = names_refusal(obj) or kind_refusal(obj, f"{HEAT_COLORS}|{QUANTITIES[quantity].attribute}")
     if reason is not None:
         raise ValueError(reason)
     run, surface, _ = recall(obj)

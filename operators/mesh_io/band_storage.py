@@ -36,8 +36,10 @@ NOISE = "framelet_noise"
 NOISE_WIDTH = "framelet_noise_width"
 """Of the noise map: the numbers themselves, which stay when colors go, so that masks go on working."""
 
-_BANDS = re.compile(rf"{LOW}|{REST}|framelet_L\d+_B\d+(_edges)?")
-_OURS = re.compile(rf"{_BANDS.pattern}|{COLORS}|{HEAT_COLORS}|{NOISE}|{NOISE_WIDTH}")
+BANDS = rf"{LOW}|{REST}|framelet_L\d+_B\d+(_edges)?"
+"""The names of all attributes with bands, as a regular expression."""
+
+_OURS = re.compile(rf"{BANDS}|{COLORS}|{HEAT_COLORS}|{NOISE}|{NOISE_WIDTH}")
 _AGAIN = "analyze it again."
 
 
@@ -238,7 +240,7 @@ def write_colors(
 
 def remove_bands(mesh: bpy.types.Mesh) -> None:
     """Remove the stored bands and the note, but neither colors nor the noise."""
-    _remove(mesh, [item.name for item in mesh.attributes if _BANDS.fullmatch(item.name)])
+    _remove(mesh, [item.name for item in mesh.attributes if re.fullmatch(BANDS, item.name)])
     if NOTE in mesh:
         del mesh[NOTE]
 

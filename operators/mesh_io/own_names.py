@@ -42,32 +42,37 @@ def is_own(attribute: bpy.types.Attribute) -> bool:
 
 
 def names_refusal(obj: bpy.types.Object) -> str | None:
-    """Say in one sentence which group or attribute of an object only has a name of ours; None if none has."""
+    """Say in one sentence which vertex group of an object has a name of ours; None if none has."""
     for group in obj.vertex_groups:
         if OWN.fullmatch(group.name):
             return (
                 f"The vertex group ‘{group.name}’ of ‘{obj.name}’ has a name that Framelet gives to its own "
                 "data; rename the group."
             )
-    for attribute in obj.data.attributes:
-        reason = kind_refusal(obj, attribute.name)
-        if reason is not None and OWN.fullmatch(attribute.name):
-            return reason
     return None
 
 
-def kind_refusal(obj: bpy.types.Object, name: str) -> str | None:
-    """Say in one sentence why an attribute of one of our names is not ours; None if it is or is missing."""
-    attribute = obj.data.attributes.get(name)
-    if attribute is None or is_own(attribute):
-        return None
-    for pattern, data_type, domains in _KINDS:
-        if pattern.fullmatch(name):
-            return (
-                f"The attribute {name} of ‘{obj.name}’ is {attribute.data_type} on {attribute.domain} "
-                f"instead of {data_type} on {' or '.join(domains)}, as Framelet makes it; rename it or "
-                "remove it."
-            )
+def kind_refusal(obj: bpy.types.Object, names: str) -> str | None:
+    """Say in one sentence which attribute of an object only has a name of ours; None if none has.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        A mesh object.
+    names : str
+        A regular expression of the names that will be written.
+    """
+    for attribute in obj.data.attributes:
+        name = attribute.name
+        if is_own(attribute) or not re.fullmatch(names, name):
+            continue
+        for pattern, data_type, domains in _KINDS:
+            if pattern.fullmatch(name):
+                return (
+                    f"The attribute {name} of ‘{obj.name}’ is {attribute.data_type} on {attribute.domain} "
+                    f"instead of {data_type} on {' or '.join(domains)}, as Framelet makes it; rename it or "
+                    "remove it."
+                )
     return None
 
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ..mesh_io import mesh_bridge
-from ..mesh_io.own_names import names_refusal
+from ..mesh_io.own_names import kind_refusal, names_refusal
 from . import attributes
 from .inputs import get_input, set_input
 from .node_groups import ON
@@ -32,7 +32,8 @@ def refusal(obj: bpy.types.Object) -> str | None:
         return reason
     if not obj.is_editable:
         return f"‘{obj.name}’ is linked, so that it cannot get a modifier; make it local first."
-    return names_refusal(obj) or place_refusal(obj, DISPLACEMENT) or mesh_bridge.faces_refusal(obj)
+    reason = names_refusal(obj) or kind_refusal(obj, DENOISE_RECIPE.terms[0].attribute)
+    return reason or place_refusal(obj, DISPLACEMENT) or mesh_bridge.faces_refusal(obj)
 
 
 def store_displacement(
