@@ -116,13 +116,15 @@ def test_together_with_an_object_at_no_place(torus, make_object, rng, place):
     assert np.array_equal(before, after)
 
 
-def test_an_array_that_shrinks_to_a_point(torus):
+def test_an_array_that_shrinks_to_a_point():
     """It was "Singular matrix"."""
+    bpy.ops.mesh.primitive_grid_add()
+    grid = bpy.context.object
     target = bpy.data.objects.new("Target", None)
     bpy.context.collection.objects.link(target)
     target.scale = (0, 0, 0)
     bpy.context.view_layer.update()
-    array = torus.modifiers.new("Array", "ARRAY")
+    array = grid.modifiers.new("Array", "ARRAY")
     array.use_relative_offset, array.use_object_offset = False, True
     array.offset_object, array.use_merge_vertices, array.merge_threshold = target, True, 10.0
     assert bpy.ops.object.framelet_denoise(preset="POSITIONS") == {"FINISHED"}
