@@ -254,7 +254,7 @@ def remove_colors(mesh: bpy.types.Mesh) -> None:
     names = list(names) if hasattr(names, "__iter__") else []
     del mesh[COLORS_BEFORE]
     if len(names) != 2 or not all(isinstance(name, str) for name in names):
-        return  # somebody altered the note
+        names = [next(iter(mesh.color_attributes.keys()), "")] * 2  # somebody altered the note
     active, default = names
     mesh.attributes.active_color_name = active
     mesh.attributes.default_color_name = default

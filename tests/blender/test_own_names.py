@@ -159,3 +159,4 @@ def test_the_note_on_earlier_colors_may_be_altered(torus, value):
     torus.data["framelet_colors_before"] = value
     assert bpy.ops.object.framelet_hide_colors() == {"FINISHED"}
     assert torus.data.color_attributes.keys() == ["Own"] and "framelet_colors_before" not in torus.data
+    assert torus.data.attributes.active_color_name == "Own"
