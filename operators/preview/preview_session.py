@@ -13,6 +13,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from ..mesh_io import kept_original, mesh_bridge
+from ..mesh_io.own_names import names_refusal
 from ..modifier.inputs import input_values
 from ..modifier.offsets import offset_of
 from ..modifier.recipes import DISPLACEMENT
@@ -173,6 +174,10 @@ class PreviewSession:
             return
         self._is_suspended = False
         if obj is not None and what_changed(self.mark, self._job.read) is None:
+            reason = names_refusal(obj)
+            if reason is not None:
+                self.end(reason)
+                return
             kept_original.keep(obj.data, self._original, self._shown)
             mesh_bridge.show_positions(obj.data, self._shown)
 

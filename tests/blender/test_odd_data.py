@@ -242,7 +242,7 @@ def change_kept(mesh, data_type, domain):
     ("data_type", "domain"), [("FLOAT_VECTOR", "FACE"), ("STRING", "POINT"), ("FLOAT", "EDGE"), ("", "")]
 )
 @pytest.mark.parametrize("end", ["end", "save", "touch"])
-def test_a_preview_whose_attributes_were_changed(previewed, tmp_path, data_type, domain, end):
+def test_a_preview_whose_attributes_were_changed(previewed, tmp_path, capfd, data_type, domain, end):
     """As nodes do that turn vertices into faces. Saving wrote the preview, and ended in a traceback."""
     torus, before = previewed
     change_kept(torus.data, data_type, domain)
@@ -260,6 +260,20 @@ def test_a_preview_whose_attributes_were_changed(previewed, tmp_path, data_type,
     current_preview.end_preview()
     assert read_positions(torus.data).tobytes() == before.tobytes()
     assert not any(name in torus.data.attributes for name in kept_original.NAMES)
+    assert "Traceback" not in capfd.readouterr().err
+
+
+@pytest.mark.parametrize("name", kept_original.NAMES)
+def test_a_preview_whose_name_a_vertex_group_took(previewed, tmp_path, capfd, name):
+    """Saving ended in a traceback."""
+    torus, before = previewed
+    torus.vertex_groups.new(name=name)
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "saved.blend"))
+    current_preview.tick_preview()
+    current_preview.end_preview()
+    assert read_positions(torus.data).tobytes() == before.tobytes()
+    assert torus.vertex_groups.keys() == [name] and name not in torus.data.attributes
+    assert "Traceback" not in capfd.readouterr().err
 
 
 # Contexts
