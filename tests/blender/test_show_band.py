@@ -151,8 +151,12 @@ def test_only_the_view_that_was_used_is_switched(analyzed):
     assert other.spaces.active.shading.color_type == "MATERIAL"
 
 
-def test_a_wrong_color_attribute_is_replaced(analyzed):
+def test_colors_of_somebody_else_stay(analyzed):
     analyzed.data.color_attributes.new("framelet_band", "BYTE_COLOR", "CORNER")
+    with pytest.raises(RuntimeError, match="is BYTE_COLOR on CORNER instead of FLOAT_COLOR on POINT"):
+        bpy.ops.object.framelet_show_band()
+    assert analyzed.data.attributes["framelet_band"].domain == "CORNER"
+    analyzed.data.attributes["framelet_band"].name = "Mine"
     bpy.ops.object.framelet_show_band()
     assert analyzed.data.attributes["framelet_band"].domain == "POINT"
 
