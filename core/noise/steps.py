@@ -29,7 +29,7 @@ LEAST_SLOPES = 0.01
 """Share of the surface that looks along no axis on all but boxes and voxels."""
 
 ROUNDED_SLOPES = 0.2
-"""The same on rounded shapes: where less slopes, planes are those of a part, or of voxels that may be meant."""
+"""The same on rounded shapes: where less slopes, planes are those of a part or are meant, as voxels are."""
 
 WIDEST_STEP = 2.0
 """Steps of more mean edge lengths are those of a shape: there are slopes of several edges between them."""
