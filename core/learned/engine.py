@@ -17,7 +17,7 @@ from ..mesh.corner_lists import faces_of_vertices
 from ..mesh.geometry import fan_areas
 from ..mesh.ragged import Ragged
 from ..mesh.surface_mesh import SurfaceMesh
-from .face_graph import FACES_AT_ONCE, FaceGraph, Polygons
+from .face_graph import FaceGraph, Polygons
 from .features import Features, find_features
 from .islands import LEAST_ISLAND, find_islands
 from .measured import Measured, find_measured
@@ -57,7 +57,7 @@ class FaceEngine:
     blocks : Blocks
         Threads to work on.
     faces_at_once : int, optional
-        Faces or pairs in a block.
+        Faces or pairs in a block; see `FaceGraph`.
     least_island : int, optional
         Faces from which a connected part is an island of its own.
     """
@@ -67,7 +67,7 @@ class FaceEngine:
         surface: SurfaceMesh,
         connectivity: Connectivity,
         blocks: Blocks,
-        faces_at_once: int = FACES_AT_ONCE,
+        faces_at_once: int = 0,
         least_island: int = LEAST_ISLAND,
     ) -> None:
         self.graph = FaceGraph(surface, connectivity, blocks, faces_at_once)

@@ -15,8 +15,9 @@ from ..mesh.connectivity import Connectivity
 from ..mesh.ragged import stretches
 from ..mesh.surface_mesh import SurfaceMesh
 
-FACES_AT_ONCE = 4096
-"""Faces or pairs in a block, so that what a kernel holds of them stays in the cache."""
+FEWEST_AT_ONCE, FACES_AT_ONCE = 4096, 16384
+"""Faces or pairs in a block of small and of large meshes. What a kernel holds of few stays in the cache; with
+many, threads wait less often for one another's turn in the interpreter."""
 
 
 class Polygons(NamedTuple):
@@ -54,7 +55,7 @@ class FaceGraph:
     connectivity : Connectivity
         Its neighborhoods.
     faces_at_once : int, optional
-        Faces or pairs in a block, at most as many as by default.
+        Faces or pairs in a block, at most `FACES_AT_ONCE`; by default about a 16th of the mesh.
 
     Attributes
     ----------
@@ -71,9 +72,11 @@ class FaceGraph:
         surface: SurfaceMesh,
         connectivity: Connectivity,
         blocks: Blocks,
-        faces_at_once: int = FACES_AT_ONCE,
+        faces_at_once: int = 0,
     ) -> None:
-        self.blocks = blocks.with_block_size(min(faces_at_once, FACES_AT_ONCE, blocks.block_size))
+        self.blocks = blocks.with_block_size(
+            min(faces_at_once or _faces_at_once(surface.n_faces), FACES_AT_ONCE, blocks.block_size)
+        )
         size = surface.common_face_size()
         offset, corner_vertex, corner_edge = surface.face_offset, surface.corner_vertex, surface.corner_edge
         across = connectivity.face_across
@@ -148,3 +151,9 @@ class FaceGraph:
     def in_graph_order(self, field: NDArray[Any]) -> NDArray[Any]:
         """Return a field of the mesh's faces, last axis F, for the faces of the graph."""
         return field if self.order is None else field[..., self.order]
+
+
+def _faces_at_once(n_faces: int) -> int:
+    """Return the size of a block by the size of the mesh alone, so that threads never change a bit."""
+    sixteenth = 2 ** max(n_faces // 16, 1).bit_length() // 2
+    return min(max(sixteenth, FEWEST_AT_ONCE), FACES_AT_ONCE)
