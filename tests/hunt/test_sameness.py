@@ -7,6 +7,7 @@ from itertools import pairwise
 import numpy as np
 from checks import lengths, random_rotation
 from framelet.core import DenoiseSettings, FrameletError, SurfaceMesh, denoise
+from framelet.core.frames import BANKS
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from stars import relabeled
@@ -22,6 +23,13 @@ SINGLE, FEW = 0.01, 0.5
 on strips and small islands averages shrink the surface to nearly nothing, which amplifies rounding. Of the
 medians of 540 meshes half were above 3e-8, and the worst was 0.0015 from 30 faces on; of 100 patches of 22
 faces, each with noise of its own, the worst was 0.14 after three passes."""
+
+
+FROM_FIRST_SPOKE = {
+    "LINEAR_SPLINE_REDUCED",
+    *(name for name, bank in BANKS.items() if bank.is_cell_centered),
+}
+"""Frames whose masks on coarse levels begin at the first spoke of a vertex, which its number decides."""
 
 
 def moved_mesh(change, mesh, rng):
@@ -49,6 +57,7 @@ def moved_mesh(change, mesh, rng):
 def test_a_changed_mesh_has_the_changed_result(mesh, settings, change, seed):
     assume(mesh.n_edges and mesh.n_faces)
     assume(change != "turned" or settings.shrinkage == "VECTOR")  # the others depend on the axes
+    assume(change != "renumbered" or settings.levels == 1 or settings.frame not in FROM_FIRST_SPOKE)
     rng = np.random.default_rng(seed)
     ends = mesh.vertices[mesh.edges]
     edge = lengths(ends[:, 0] - ends[:, 1]).mean()
