@@ -18,18 +18,25 @@ from .profile import examples
 ROUNDING = 1e-6
 """Mean edge lengths by which results may differ in double precision."""
 
-SINGLE, FEW = 0.01, 0.5
+SINGLE, FEW = 0.1, 0.5
 """Medians for learned shrinkage, whose kernels work in single precision, and for it on less than 30 faces:
 on strips and small islands averages shrink the surface to nearly nothing, which amplifies rounding. Of the
-medians of 540 meshes half were above 3e-8, and the worst was 0.0015 from 30 faces on; of 100 patches of 22
-faces, each with noise of its own, the worst was 0.14 after three passes."""
-
+medians of 540 meshes half were above 3e-8; the worst of 2,000 was 0.02 from 30 faces on, and of 100 patches
+of 22 faces, each with noise of its own, 0.14 after three passes."""
 
 FROM_FIRST_SPOKE = {
     "LINEAR_SPLINE_REDUCED",
     *(name for name, bank in BANKS.items() if bank.is_cell_centered),
 }
-"""Frames whose masks on coarse levels begin at the first spoke of a vertex, which its number decides."""
+"""Frames whose masks on coarse levels begin at the first spoke of a vertex, which numbers decide."""
+
+
+def begins_at_a_spoke(settings):
+    """Tell whether numbers of vertices decide on the result, by which spoke of a vertex is the first."""
+    is_harmonic = "ADAPTIVE" in (settings.frame, settings.stencil)
+    return (settings.levels > 1 and settings.frame in FROM_FIRST_SPOKE) or (
+        is_harmonic and settings.shrinkage == "SCALAR"
+    )
 
 
 def moved_mesh(change, mesh, rng):
@@ -57,7 +64,8 @@ def moved_mesh(change, mesh, rng):
 def test_a_changed_mesh_has_the_changed_result(mesh, settings, change, seed):
     assume(mesh.n_edges and mesh.n_faces)
     assume(change != "turned" or settings.shrinkage == "VECTOR")  # the others depend on the axes
-    assume(change != "renumbered" or settings.levels == 1 or settings.frame not in FROM_FIRST_SPOKE)
+    is_positions = settings.method == "POSITIONS"
+    assume(not (change == "renumbered" and is_positions and begins_at_a_spoke(settings)))
     rng = np.random.default_rng(seed)
     ends = mesh.vertices[mesh.edges]
     edge = lengths(ends[:, 0] - ends[:, 1]).mean()
