@@ -172,7 +172,7 @@ class _Run:
         Then nothing is still: facets of rounded places are flat.
         """
         noise = rounding_noise(self._problem.surface)
-        if noise < LEAST_ROUNDING:
+        if noise < LEAST_ROUNDING or not self._is_movable.any():
             return None
         self._n_left += TICKS
         wide = self._passed(self.points, np.ones(1, np.float32))

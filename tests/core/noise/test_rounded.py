@@ -63,3 +63,12 @@ def test_slopes_of_whole_steps_are_no_rounding():
         np.stack((columns, rows, SIDE / 2 - np.abs(rows - SIDE / 2)), -1).reshape(-1, 3)
     )
     assert_same_bits(denoise(roof, AUTO).vertices, roof.vertices)
+
+
+def test_a_rounded_mesh_of_which_nothing_may_move_stays(recwarn):
+    rounded = hills(1.0)
+    stays = np.zeros(rounded.n_vertices, bool)
+    stays[: SIDE + 1] = True  # on the border, which is fixed
+    result = denoise(rounded, AUTO.with_changes(boundary="FIXED"), movable=stays)
+    moved = lengths(result.vertices - rounded.vertices) > 0
+    assert np.count_nonzero(moved) <= 1 and not recwarn.list
