@@ -27,6 +27,7 @@ if TYPE_CHECKING:
         prepare,
         vertex_normals,
     )
+    from .library_tables import analyze, connect, make_stencil, make_transform
     from .limits.region import Region
     from .mesh.connectivity import Connectivity
     from .mesh.surface_mesh import SurfaceMesh
@@ -40,7 +41,6 @@ if TYPE_CHECKING:
     from .settings import DEFAULT_PRESET, PRESETS, DenoiseSettings
     from .stencils import Stencil
     from .transform import FrameCoefficients, FrameTransform, adjoint, synthesize
-    from .transforms import analyze, connect, make_stencil, make_transform
 
 _NAMES = {
     ".equalizer": "equalize",
@@ -62,7 +62,7 @@ _NAMES = {
     ".report": "DenoiseReport DenoiseResult",
     ".settings": "DEFAULT_PRESET DenoiseSettings PRESETS",
     ".stencils": "Stencil",
-    ".transforms": "analyze connect make_stencil make_transform",
+    ".library_tables": "analyze connect make_stencil make_transform",
     ".transform": "FrameCoefficients FrameTransform adjoint synthesize",
 }
 """The public names of each module."""

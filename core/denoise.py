@@ -80,7 +80,9 @@ def denoise(
     began = perf_counter()
     check_given(surface, settings, connectivity, should_stop)
     check_kind("The region", region, Region, "a Region", RegionError)
-    check_kind("What is prepared", prepared, (Prepared, PreparationCache), "what `prepare` returns")
+    check_kind(
+        "What is prepared", prepared, (Prepared, PreparationCache), "what `prepare` returns or a cache"
+    )
     check_callable("The callback", callback)
     settings = settings or PRESETS[DEFAULT_PRESET].settings
     region = region or Region()

@@ -204,7 +204,8 @@ def prepare(
     Parameters
     ----------
     surface : SurfaceMesh
-        The noisy surface; not modified. It is kept, as a copy where its arrays can be written to.
+        The noisy surface, to scripts also `vertices, faces`; not modified. It is kept, as a copy where its
+        arrays can be written to.
     settings : DenoiseSettings, optional
         Method, frame, stencil, levels, boundary and shrinkage count; by default those of the preset AUTO.
     connectivity : Connectivity, optional
