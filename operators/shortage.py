@@ -12,6 +12,9 @@ if TYPE_CHECKING:
 
     import bpy
 
+_MARGIN = 1_000_000
+"""Numbers of four bytes beyond the arrays of a mesh, for what Blender itself keeps of a call."""
+
 
 @contextmanager
 def shortage_told(name: str) -> Iterator[None]:
@@ -37,6 +40,18 @@ def shortage_told(name: str) -> Iterator[None]:
         ) from error
 
 
+def reserve_for_reading(mesh: bpy.types.Mesh) -> None:
+    """Raise MemoryError unless there is room for reading a mesh.
+
+    Where a mesh shares arrays with an undo step, Blender copies each of them before it shows it, and ends
+    itself where it gets no memory for a copy.
+    """
+    import numpy as np
+
+    n_numbers = 3 * len(mesh.vertices) + 2 * len(mesh.edges) + 2 * len(mesh.loops) + len(mesh.polygons)
+    np.empty(2 * n_numbers + _MARGIN, np.float32)  # the copies, and what is read
+
+
 def reserve_for_writing(obj: bpy.types.Object) -> None:
     """Raise MemoryError unless there is room for all that writing a result takes.
 
@@ -48,4 +63,4 @@ def reserve_for_writing(obj: bpy.types.Object) -> None:
     mesh = obj.data
     n_keys = 0 if mesh.shape_keys is None else len(mesh.shape_keys.key_blocks)
     n_vectors = (16 + 4 * n_keys) * len(mesh.vertices) + 8 * len(mesh.loops)
-    np.empty((n_vectors, 3), np.float32)
+    np.empty(3 * n_vectors + _MARGIN, np.float32)

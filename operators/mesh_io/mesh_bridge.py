@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 import bmesh
 import bpy
 
+from ..shortage import reserve_for_reading
 from .own_names import names_refusal
 from .shape_keys import active_key, dependent_keys, read_key_points, write_key_points, write_positions
 from .typed_attributes import truth_values
@@ -299,6 +300,7 @@ def read_arrays(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey | None) -> Surface
 
     from ...core import SurfaceMesh
 
+    reserve_for_reading(mesh)
     n_corners, n_faces = len(mesh.loops), len(mesh.polygons)
     vertices = read_positions(mesh) if key is None else read_key_points(key)
     edges = np.empty((len(mesh.edges), 2), np.int32)

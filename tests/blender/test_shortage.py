@@ -6,6 +6,7 @@ Each large array that NumPy is asked for fails in turn; and a Blender of its own
 """
 
 import re
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -177,9 +178,12 @@ def test_less_and_less_memory():
     done = subprocess.run(command, capture_output=True, text=True, timeout=240, check=False)
     assert "Traceback" not in done.stdout + done.stderr, done.stdout + done.stderr
     lines = [line for line in done.stdout.splitlines() if line.startswith("FOUND")]
-    # Blender itself ends where it gets no memory for what is its own.
-    assert done.returncode == 0 or "Malloc returns null" in done.stderr, done.stdout + done.stderr
-    assert len(lines) == 8 or done.returncode
+    # With less than what a call itself takes, Blender may end: no sentence is possible there.
+    if done.returncode == 0:
+        assert len(lines) == 8, done.stdout
+    else:
+        assert done.returncode in (-signal.SIGSEGV, -signal.SIGABRT), done.stdout + done.stderr
+        assert len(lines) >= 6, done.stdout + done.stderr
     for line in lines:
         is_same = line.split()[2] == "True"
         assert is_same != ("FINISHED" in line), line
