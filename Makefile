@@ -15,6 +15,9 @@ TIMEOUT ?= 1200
 GUI_TIMEOUT ?= 3600
 HUNT_TIMEOUT ?= 14400
 
+# Changes of the code that are tried in each room.
+MUTANTS ?= 40
+
 # Tests run in this many processes at once: one more than there are cores, as tests wait for programs that they
 # start. 0 is none but pytest itself. Never more than eight, as each holds a whole Blender in memory.
 JOBS ?= $(shell $(PYTHON) -c "import os; print(1 + (os.cpu_count() or 1))")
@@ -98,7 +101,7 @@ coverage: ## Measure which branches of core/ and operators/ the tests take
 
 .PHONY: mutants
 mutants: ## Change single operators and numbers, and see whether a test tells
-	$(ENVIRONMENT) run core --timeout $(HUNT_TIMEOUT) -- tests/hunt/mutants.py --count 40
+	$(ENVIRONMENT) run core --timeout $(HUNT_TIMEOUT) -- tests/hunt/mutants.py --count $(MUTANTS)
 
 .PHONY: fuzz
 fuzz: ## Read 5,000 damaged files, and as many manifests, reports and command lines
