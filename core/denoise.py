@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from .blocks import Stopped
-from .errors import RegionError
 from .limits.finish import finish
 from .limits.region import Region
 from .limits.resolved_region import resolve
@@ -24,7 +23,6 @@ from .preparation_cache import PreparationCache, prepared_for
 from .prepared import Prepared, check_given
 from .report import DenoiseResult, account, stopped_report
 from .settings import DEFAULT_PRESET, PRESETS, DenoiseSettings
-from .value_checks import check_callable, check_kind
 
 
 def denoise(
@@ -78,14 +76,8 @@ def denoise(
         or if the run needs more than `max_bytes`.
     """
     began = perf_counter()
-    check_given(surface, settings, connectivity, should_stop)
-    check_kind("The region", region, Region, "a Region", RegionError)
-    check_kind(
-        "What is prepared", prepared, (Prepared, PreparationCache), "what `prepare` returns or a cache"
-    )
-    check_callable("The callback", callback)
+    check_given(surface, settings, connectivity, should_stop, callback)
     settings = settings or PRESETS[DEFAULT_PRESET].settings
-    region = region or Region()
     resolved = resolve(region, surface, movable)  # what the region says about each vertex
     check_memory(surface, settings, max_bytes)
     try:
@@ -96,9 +88,8 @@ def denoise(
             solution = METHODS[settings.method](problem)
             motion = prepared.motion(solution.points, blocks)  # in scene units again
             welded = resolved.welded_mesh(prepared.connectivity, prepared.edge)
-            finished = finish(
-                motion, welded, resolved, region, problem.constraints, blocks, prepared.known_faces(resolved)
-            )
+            known = prepared.known_faces(resolved)
+            finished = finish(motion, welded, resolved, problem.constraints, blocks, known)
             prepared.remember(resolved, finished.flips.before)
             vertices = resolved.in_given_order(finished.vertices)
             report = account(resolved, vertices, finished, problem, solution, began)

@@ -17,7 +17,7 @@ from .mesh.surface_mesh import SurfaceMesh
 from .precision import as_precision
 from .prepared import Prepared, check_given, prepare, prepare_again
 from .settings import DenoiseSettings
-from .value_checks import check_number
+from .value_checks import check_kind, check_number
 
 MAX_BYTES = 2**30
 """By default this much is kept: what four meshes of half a million vertices need."""
@@ -87,8 +87,9 @@ def prepared_for(
     Raises
     ------
     FrameletError
-        If what was prepared is for another mesh or other stencils.
+        If what was prepared is for another mesh or other stencils, or something else.
     """
+    check_kind("What is prepared", known, (Prepared, PreparationCache), "what `prepare` returns or a cache")
     surface, dtype = resolved.surface, as_precision(dtype)
     if resolved.weld is not None:
         connectivity = None

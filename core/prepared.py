@@ -107,12 +107,12 @@ class Prepared:
             self.ordered, self.connectivity, settings, resolved.movable, self.noisy.dtype, self.corners
         )
         given, surface, engine = self.noisy, self.ordered, self.engine
-        if resolved.flatten_spikes:
+        if resolved.region.flatten_spikes:
             surface = without_spikes(surface, constraints.pinned)
             motion = (surface.vertices.astype(np.float64) - self.ordered.vertices).T / self.edge
             given = given + motion.astype(given.dtype)
             engine = None if engine is None else engine.for_positions(surface, self.connectivity)
-        if resolved.straighten_borders:
+        if resolved.region.straighten_borders:
             given, constraints = self._with_straight_borders(given, constraints)
         problem = Problem(
             noisy=given,
@@ -180,12 +180,14 @@ def check_given(
     settings: DenoiseSettings | None,
     connectivity: Connectivity | None,
     should_stop: Callable[[], bool] | None,
+    callback: Callback | None = None,
 ) -> None:
     """Raise a FrameletError if one of these is of another type, or if they do not fit each other."""
     check_mesh(surface)
     check_kind("The settings", settings, DenoiseSettings, "DenoiseSettings")
     check_connectivity(connectivity, surface)
     check_callable("What stops the run", should_stop)
+    check_callable("The callback", callback)
 
 
 def prepare(

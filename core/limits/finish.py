@@ -40,7 +40,6 @@ def finish(
     found: NDArray[np.float64],
     welded: WeldedMesh,
     resolved: ResolvedRegion,
-    region: Region,
     constraints: Constraints,
     blocks: Blocks,
     known: FaceState | None,
@@ -54,14 +53,13 @@ def finish(
     welded : WeldedMesh
         That mesh, and the one that moves.
     resolved : ResolvedRegion
-        What the region says about its vertices.
-    region : Region
-        The limits.
+        The limits, and what they say about its vertices.
     constraints : Constraints
         Vertices that are pinned take no part in the offset for the volume.
     known : FaceState or None
         The faces of the input, if they are known already: what `flips.before` of a result was.
     """
+    region = resolved.region
     motion = Motion(found, welded, region, resolved.movable, resolved.weights, constraints.pinned)
     flips = FaceFlips(welded, blocks, known)
     shares = np.ones(found.shape[1])

@@ -16,6 +16,7 @@ from ..mesh.locality import Reordering
 from ..mesh.surface_mesh import SurfaceMesh
 from ..mesh.weld import Weld, make_weld
 from ..mesh.welded_mesh import WeldedMesh
+from ..value_checks import check_kind
 from .region import Region
 
 
@@ -25,6 +26,8 @@ class ResolvedRegion:
 
     Attributes
     ----------
+    region : Region
+        The limits of the run.
     original : SurfaceMesh
         The mesh as it was given.
     surface : SurfaceMesh
@@ -39,12 +42,9 @@ class ResolvedRegion:
         Pairs of vertices; None for none.
     reordering : Reordering or None
         Other numbers of `surface`, by which the arrays above go.
-    straighten_borders : bool
-        Whether borders become smooth curves.
-    flatten_spikes : bool
-        Whether spikes come down first.
     """
 
+    region: Region
     original: SurfaceMesh
     surface: SurfaceMesh
     weld: Weld | None
@@ -52,8 +52,6 @@ class ResolvedRegion:
     weights: NDArray[np.float64] | None
     feature_edges: NDArray[np.integer] | None
     reordering: Reordering | None = None
-    straighten_borders: bool = False
-    flatten_spikes: bool = False
 
     def renumbered(self, reordering: Reordering | None) -> ResolvedRegion:
         """Return the same with the numbers of a reordering of `surface`, if there is one."""
@@ -99,13 +97,13 @@ class ResolvedRegion:
         return self.reordering.vertices_back(vertices)
 
 
-def resolve(region: Region, surface: SurfaceMesh, movable: NDArray[np.bool_] | None) -> ResolvedRegion:
+def resolve(region: Region | None, surface: SurfaceMesh, movable: NDArray[np.bool_] | None) -> ResolvedRegion:
     """Find out what a region means for a mesh.
 
     Parameters
     ----------
-    region : Region
-        The limits of a run.
+    region : Region or None
+        The limits of a run; None for the default ones.
     surface : SurfaceMesh
         The mesh; not modified.
     movable : ndarray, shape (N,), bool, or None
@@ -120,9 +118,11 @@ def resolve(region: Region, surface: SurfaceMesh, movable: NDArray[np.bool_] | N
     Raises
     ------
     RegionError
-        In one sentence, if the region does not fit the mesh, if nothing may move, or if nothing is left of
-        the welded mesh.
+        In one sentence, if it is no region or does not fit the mesh, if nothing may move, or if nothing is
+        left of the welded mesh.
     """
+    check_kind("The region", region, Region, "a Region", RegionError)
+    region = region or Region()
     if movable is not None:
         movable = np.asarray(movable)
         _check_movable(movable, surface.n_vertices)
@@ -155,16 +155,7 @@ def resolve(region: Region, surface: SurfaceMesh, movable: NDArray[np.bool_] | N
         raise RegionError(
             "No vertex may move: those that are selected have weight 0, or lie on others that may not move."
         )
-    return ResolvedRegion(
-        surface,
-        worked,
-        weld,
-        movable,
-        weights,
-        edges,
-        straighten_borders=region.straighten_borders,
-        flatten_spikes=region.flatten_spikes,
-    )
+    return ResolvedRegion(region, surface, worked, weld, movable, weights, edges)
 
 
 def _new_numbers(reordering: Reordering) -> NDArray[np.intp]:
