@@ -37,8 +37,9 @@ class Grid:
         self._order = np.argsort(keys)
         self._sorted_keys = keys[self._order]
         self._is_open = connectivity.is_boundary & ~connectivity.is_non_manifold
-        self._back = self.find(connectivity.ring, self._owner)
-        # One more entry at the end, so that step -1 leads to step -1.
+        # One more entry at the end of each, so that step -1 leads to -1.
+        self._target = np.append(connectivity.ring, -1)
+        self._back = np.append(self.find(connectivity.ring, self._owner), -1)
         self._straight = np.append(self._find_straight(vertices), -1)
         self._powers = [self._straight]
 
@@ -52,10 +53,7 @@ class Grid:
 
     def target(self, steps: Steps) -> NDArray[np.int64]:
         """Return the vertices that steps lead to, -1 for no step."""
-        ring = self._connectivity.ring
-        if not len(ring):  # a face of one vertex alone
-            return np.full(np.shape(steps), -1)
-        return np.where(steps >= 0, ring[steps], -1)
+        return self._target[steps]
 
     def march(self, steps: Steps, count: int) -> Steps:
         """Go straight on `count` times, in as many table look-ups as the count has binary digits."""
@@ -71,7 +69,7 @@ class Grid:
         """Go on by the edge `amount` places behind the edge arrived by, in ring order; -1 beyond a border."""
         ring_offset, valence = self._connectivity.ring_offset, self._connectivity.valence
         vertex = self.target(steps)
-        back = np.where(steps >= 0, self._back[steps], -1)
+        back = self._back[steps]
         usable = (back >= 0) & ~self._connectivity.is_non_manifold[vertex] & (valence[vertex] > abs(amount))
         place = back - ring_offset[vertex] + amount
         inside = (place >= 0) & (place < valence[vertex])
@@ -125,7 +123,7 @@ class Grid:
     def _find_straight(self, vertices: NDArray[np.floating]) -> Steps:
         """Return the step that goes straight on after each step."""
         connectivity = self._connectivity
-        vertex, back = connectivity.ring, self._back
+        vertex, back = connectivity.ring, self._back[:-1]
         offset, valence = connectivity.ring_offset[vertex], connectivity.valence[vertex]
         place = back - offset
         following = np.full(len(vertex), -1)

@@ -24,6 +24,11 @@ on strips and small islands averages shrink the surface to nearly nothing, which
 medians of 540 meshes half were above 3e-8; the worst of 2,000 was 0.02 from 30 faces on, and of 100 patches
 of 22 faces, each with noise of its own, 0.14 after three passes."""
 
+PASSES = 2
+"""More do not count: a face that is folded in one of the two results only is enough for a difference, which
+each further pass spreads. On a torus of 112 faces whose noise is as large as its tube the medians after 1, 2
+and 3 passes were 3e-7, 5e-4 and 0.17."""
+
 FROM_FIRST_SPOKE = {
     "LINEAR_SPLINE_REDUCED",
     *(name for name, bank in BANKS.items() if bank.is_cell_centered),
@@ -73,6 +78,8 @@ def test_a_changed_mesh_has_the_changed_result(mesh, settings, change, seed):
     mesh = mesh.with_vertices(mesh.vertices + rng.normal(0, 0.1 * edge, mesh.vertices.shape))
     other, back = moved_mesh(change, mesh, rng)
     settings = settings.with_changes(threads=1)
+    if settings.method == "AUTO":
+        settings = settings.with_changes(passes=min(settings.passes, PASSES))
     try:
         expected = denoise(mesh, settings, dtype=np.float64).vertices
     except FrameletError as error:
