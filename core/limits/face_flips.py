@@ -95,8 +95,9 @@ class FaceFlips:
     def look(self, vertices: NDArray[np.floating]) -> None:
         """Look at all faces at new positions, shape (N, 3)."""
         self.areas, self.volume, self.is_folded, self.is_degenerate = self._state(vertices)
-        parts = self._blocks.run(self._turned, len(self.is_folded))
-        turned = np.concatenate(parts) if parts else np.zeros(0, np.intp)
+        turned = self._blocks.indices(
+            lambda start, stop: self._is_turned(slice(start, stop)), len(self.is_folded)
+        )
         self.n_turned = len(turned)
         self._is_over = np.zeros(len(self.is_folded), bool)
         self._is_over[turned] = self._counts_as_over(turned)
@@ -122,8 +123,7 @@ class FaceFlips:
         areas = self._areas_of(faces)
         self.areas[:, faces] = areas
         self.is_degenerate[faces] = _degenerate(areas)
-        is_turned = dots(self.areas[:, faces], self.before.areas[:, faces]) < 0.0
-        self._is_over[faces] = is_turned & self._counts_as_over(faces)
+        self._is_over[faces] = self._is_turned(faces) & self._counts_as_over(faces)
         near = np.zeros(topology.n_vertices, bool)
         near[topology.corner_vertex[corners_of(topology, faces)[1]]] = True
         faces = faces_at(topology, near)
@@ -171,10 +171,13 @@ class FaceFlips:
         part: SurfaceMesh = some_faces(self.welded.surface, own)
         return area_rows(self._points, part, 0, part.n_faces)
 
-    def _turned(self, start: int, stop: int) -> NDArray[np.intp]:
-        """Return those of the faces start to stop whose normals have turned by more than a right angle."""
-        cosine = dots(self.areas[:, start:stop], self.before.areas[:, start:stop])
-        return start + np.flatnonzero(cosine < 0.0)
+    def _is_turned(self, faces: NDArray[np.intp] | slice) -> NDArray[np.bool_]:
+        """Return which of some faces point away from where they pointed, shape (n,), bool.
+
+        The normal of a face that had no area was rounding, which it cannot turn from.
+        """
+        cosine = dots(self.areas[:, faces], self.before.areas[:, faces])
+        return (cosine < 0.0) & ~self.before.is_degenerate[faces]
 
     def _counts_as_over(self, faces: NDArray[np.intp]) -> NDArray[np.bool_]:
         """Return which of some faces count as turned over if their normals have turned, shape (n,), bool."""
