@@ -154,7 +154,7 @@ def _half_cross(first: NDArray[np.float64], second: NDArray[np.float64]) -> NDAr
 def _newell_areas(
     points: NDArray[np.float64], surface: SurfaceMesh, faces: NDArray[np.intp]
 ) -> NDArray[np.float64]:
-    """Return the vector areas of polygons of any size, shape (3, n)."""
+    """Return the vector areas of polygons of any size, shape (3, n); zero for those that go there and back."""
     first = surface.face_offset[:-1][faces]
     counts = surface.face_offset[1:][faces] - first
     begin = starts(counts)
@@ -164,7 +164,11 @@ def _newell_areas(
     corners = points[:, surface.corner_vertex[corner]]
     # Relative to the face's first corner, so that a mesh far from the origin loses no digits.
     corners -= np.repeat(corners[:, begin], counts, axis=1)
-    return np.add.reduceat(_half_cross(corners, corners[:, following]), begin, axis=1)
+    parts = _half_cross(corners, corners[:, following])
+    areas = np.add.reduceat(parts, begin, axis=1)
+    total = np.add.reduceat(row_lengths(parts), begin)
+    areas[:, row_lengths(areas.copy()) <= CANCELED * total] = 0.0
+    return areas
 
 
 def unit_vectors(vectors: NDArray[np.float64]) -> NDArray[np.float64]:

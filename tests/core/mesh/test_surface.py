@@ -269,6 +269,15 @@ def test_meshes_without_faces_and_faces_without_area():
     assert np.isfinite(vertex_normals(soup(1, shortest=1))).all()
 
 
+@pytest.mark.parametrize("shift", [0.0, 0.3, 100.0])
+def test_a_face_there_and_back_again_has_no_area(shift, rng):
+    """Each of its steps is taken back; what was left of their sum was rounding, which pointed anywhere."""
+    points = rng.normal(size=(7, 3)) + shift
+    mesh = wild_mesh(points, [(0, 1, 2), (3, 4, 3, 5, 6, 5), (0, 1, 3)])
+    assert not face_area_vectors(mesh)[1].any()
+    assert not vertex_normals(mesh)[6].any()
+
+
 def test_zero_vectors_stay_zero():
     vectors = np.array([[0.0, 0.0, 0.0], [0.0, 3.0, 4.0]])
     assert unit_vectors(vectors).tolist() == [[0.0, 0.0, 0.0], [0.0, 0.6, 0.8]]
