@@ -154,7 +154,7 @@ def _half_cross(first: NDArray[np.float64], second: NDArray[np.float64]) -> NDAr
 def _newell_areas(
     points: NDArray[np.float64], surface: SurfaceMesh, faces: NDArray[np.intp]
 ) -> NDArray[np.float64]:
-    """Return the vector areas of polygons of any size, shape (3, n); zero for those that go there and back."""
+    """Return the vector areas of polygons of any size, shape (3, n); zero for what goes there and back."""
     first = surface.face_offset[:-1][faces]
     counts = surface.face_offset[1:][faces] - first
     begin = starts(counts)
