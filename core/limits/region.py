@@ -4,13 +4,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import RegionError
+from ..precision import as_array
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,13 +64,13 @@ class Region:
 
     def __post_init__(self) -> None:
         if self.weights is not None:
-            weights = np.asarray(self.weights)
+            weights = as_array("The weights", self.weights, RegionError)
             if weights.dtype.kind in "biu":
                 weights = weights.astype(np.float64)
             object.__setattr__(self, "weights", weights)
             _check_weights(weights)
         if self.feature_edges is not None:
-            edges = np.asarray(self.feature_edges)
+            edges = as_array("The feature edges", self.feature_edges, RegionError)
             object.__setattr__(self, "feature_edges", edges)
             if edges.ndim != 2 or edges.shape[1] != 2 or not np.issubdtype(edges.dtype, np.integer):
                 raise RegionError(
@@ -77,13 +78,16 @@ class Region:
                     "shape (E, 2), two vertices for each edge."
                 )
         if self.weldable is not None:
-            mask = np.asarray(self.weldable)
+            mask = as_array("The weldable vertices", self.weldable, RegionError)
             object.__setattr__(self, "weldable", mask)
             if mask.ndim != 1 or mask.dtype != bool:
                 raise RegionError(
                     f"The mask of weldable vertices is {mask.dtype} of shape {mask.shape}; expected one "
                     "truth value a vertex."
                 )
+        for item in fields(self):
+            if item.type == "bool":
+                _check_switch(item.name.replace("_", " "), getattr(self, item.name))
         _check_length("largest displacement", self.max_displacement)
         _check_length("weld distance", self.weld_distance)
 
@@ -121,6 +125,12 @@ def _check_weights(weights: NDArray[Any]) -> None:
         raise RegionError(
             f"The weight of vertex {vertex} is {weights[vertex]:g}; weights must be between 0 and 1."
         )
+
+
+def _check_switch(name: str, value: Any) -> None:
+    """Raise RegionError unless this is a truth value."""
+    if not isinstance(value, bool | np.bool_):
+        raise RegionError(f"The choice {name!r} is {value!r}; it must be True or False.")
 
 
 def _check_length(name: str, value: Any) -> None:

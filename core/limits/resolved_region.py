@@ -16,6 +16,7 @@ from ..mesh.locality import Reordering
 from ..mesh.surface_mesh import SurfaceMesh
 from ..mesh.weld import Weld, make_weld
 from ..mesh.welded_mesh import WeldedMesh
+from ..precision import as_array
 from ..value_checks import check_kind
 from .region import Region
 
@@ -124,7 +125,7 @@ def resolve(region: Region | None, surface: SurfaceMesh, movable: NDArray[np.boo
     check_kind("The region", region, Region, "a Region", RegionError)
     region = region or Region()
     if movable is not None:
-        movable = np.asarray(movable)
+        movable = as_array("The movable vertices", movable, RegionError)
         _check_movable(movable, surface.n_vertices)
     region.check(surface.n_vertices)
     weights = None

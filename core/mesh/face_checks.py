@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import MeshError
+from ..precision import as_array
 from ..value_checks import shown
 
 if TYPE_CHECKING:
@@ -56,7 +57,7 @@ def corner_list(
     """Return the vertices of all corners, shape (C,), and the first corner of each face, shape (F + 1,)."""
     check_known(faces, "faces")
     if isinstance(faces, np.ndarray) and faces.ndim == 2:
-        flat = whole_numbers(np.asarray(faces), "faces").reshape(-1)
+        flat = whole_numbers(faces, "faces").reshape(-1)
         return flat, np.arange(len(faces) + 1, dtype=np.int32) * np.int32(faces.shape[1])
     if not isinstance(faces, Iterable):
         raise MeshError(
@@ -74,13 +75,13 @@ def corner_list(
         return np.zeros(0, np.int32), offset.astype(np.int32)
     if not {bool, np.bool_}.isdisjoint(map(type, items)):
         raise MeshError("The faces contain True or False; vertices are given by whole numbers.")
-    return whole_numbers(np.asarray(items), "faces"), offset.astype(np.int32)
+    return whole_numbers(items, "faces"), offset.astype(np.int32)
 
 
 def flat_corners(corners: ArrayLike, offsets: ArrayLike) -> tuple[NDArray[np.integer], NDArray[np.int32]]:
     """Return the vertices of all corners, shape (C,), and the checked first corner of each face (F + 1,)."""
-    flat = whole_numbers(np.asarray(corners), "corners")
-    offset = whole_numbers(np.asarray(offsets), "offsets")
+    flat = whole_numbers(corners, "corners")
+    offset = whole_numbers(offsets, "offsets")
     if flat.ndim != 1:
         raise MeshError(f"The corners have shape {flat.shape}; beside offsets they must be a flat list.")
     if offset.ndim != 1 or not len(offset) or offset[0] != 0 or offset[-1] != len(flat):
@@ -90,8 +91,9 @@ def flat_corners(corners: ArrayLike, offsets: ArrayLike) -> tuple[NDArray[np.int
     return flat, offset.astype(np.int32)
 
 
-def whole_numbers(numbers: NDArray[Any], name: str) -> NDArray[np.integer]:
+def whole_numbers(values: ArrayLike, name: str) -> NDArray[np.integer]:
     """Return an array of whole numbers, or raise MeshError if it holds anything else."""
+    numbers = as_array(f"The {name}", values, MeshError)
     if numbers.size and numbers.dtype.kind not in "iu":
         raise MeshError(f"The {name} are {numbers.dtype}; vertices are given by whole numbers.")
     return numbers if numbers.size else numbers.astype(np.int64)

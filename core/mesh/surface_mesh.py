@@ -219,7 +219,7 @@ class SurfaceMesh:
         """
         positions = positions_of(vertices)
         flat, offset = corner_list(faces) if offsets is None else flat_corners(faces, offsets)
-        loose = whole_numbers(np.asarray(loose_edges), "loose edges").reshape(-1, 2)
+        loose = whole_numbers(loose_edges, "loose edges").reshape(-1, 2)
         check_range(flat, len(positions), "A face", offset)
         check_range(loose.reshape(-1), len(positions), "A loose edge")
         corner = flat.astype(np.int32)

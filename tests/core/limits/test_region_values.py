@@ -35,6 +35,11 @@ def mesh(rng):
         ({"max_displacement": "far"}, "largest displacement is 'far'; it must be a number"),
         ({"max_displacement": True}, "largest displacement is True"),
         ({"weld_distance": -1e-9}, "weld distance is -1e-09"),
+        ({"weights": [[1], [1, 2]]}, r"weights are \[\[1\], \[1, 2\]\]; give an array"),
+        ({"feature_edges": [[0, 1], [2]]}, "feature edges are .*; give an array"),
+        ({"weldable": [[True], []]}, "weldable vertices are .*; give an array"),
+        ({"keep_volume": None}, "choice 'keep volume' is None; it must be True or False"),
+        ({"flatten_spikes": "no"}, "choice 'flatten spikes' is 'no'; it must be True or False"),
     ],
 )
 def test_wrong_values_are_refused(values, message):
