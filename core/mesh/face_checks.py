@@ -64,9 +64,8 @@ def corner_list(
             f"The faces are {shown(faces)}; expected an array of shape (F, k) or a list of lists."
         )
     rows: list[Any] = list(faces)
-    if any(np.ndim(row) != 1 for row in (rows[:1] if rows else ())) or not all(
-        hasattr(row, "__len__") for row in rows
-    ):
+    is_listed = all(hasattr(row, "__len__") for row in rows)
+    if not is_listed or any(as_array("The faces", row, MeshError).ndim != 1 for row in rows[:1]):
         raise MeshError("The faces are no lists of vertices; expected shape (F, k) or a list of lists.")
     sizes = np.fromiter(map(len, rows), np.int64, len(rows))
     offset = np.concatenate(([0], np.cumsum(sizes)))

@@ -89,7 +89,8 @@ def test_dtype_of_positions():
         (np.eye(3), [(0, 1, 2)], [(0.0, 1.0)], "The loose edges are float64"),
         (np.eye(3) > 0, [(0, 1, 2)], (), "The positions are bool; expected real numbers"),
         (np.eye(3), [(0, 1, 2)], [(0, 1), (2,)], r"The loose edges are .*; give an array"),
-        (np.eye(3), [(0, 1, (2,))], (), r"The faces are \[0, 1, \(2,\)\]; give an array"),
+        (np.eye(3), [(0, 1, (2,))], (), r"The faces are \(0, 1, \(2,\)\); give an array"),
+        (np.eye(3), [(0, 1, 2), (0, 1, (2,))], (), r"The faces are \[0, 1, .*\]; give an array"),
     ],
 )
 def test_wrong_meshes_are_refused(vertices, faces, loose, message):
