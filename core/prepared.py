@@ -24,7 +24,7 @@ from .limits.straight_borders import find_curves, straightened
 from .mesh.checks import check_mesh, check_positions, check_surface
 from .mesh.connectivity import Connectivity, check_connectivity, connect
 from .mesh.geometry import coordinate_rows
-from .mesh.locality import Reordering, is_scattered, reorder, spatial_order
+from .mesh.locality import Reordering, is_scattered, reorder, same_order, spatial_order
 from .mesh.normalization import normalize
 from .mesh.spikes import without_spikes
 from .mesh.surface_mesh import SurfaceMesh
@@ -49,7 +49,8 @@ class Prepared:
     surface : SurfaceMesh
         The mesh that it was made for; nobody can write to its arrays.
     reordering : Reordering or None
-        The same mesh with other numbers, if that makes the work faster; the arrays below go by them.
+        The same mesh with other numbers, if that makes the work faster, and with faces that agree about
+        their orientation, if they did not; the arrays below go by it.
     connectivity : Connectivity
         The neighborhoods.
     edge : float
@@ -273,10 +274,15 @@ def prepare_again(
         check_positions(surface)  # while its vertices have the numbers that the caller knows
         if connectivity is None and is_scattered(surface):
             reordering = reorder(surface, spatial_order(surface.vertices), blocks)
+        labels = None if reordering is None else reordering.vertex_order
         ordered = surface if reordering is None else reordering.surface
         if connectivity is None:
-            labels = None if reordering is None else reordering.vertex_order
             connectivity = connect(ordered, blocks, labels)
+        if previous is None and not connectivity.is_oriented:
+            wound = (reordering or same_order(surface)).wound_alike()
+            if wound.is_reversed is not None:
+                reordering, ordered = wound, wound.surface
+                connectivity = connect(ordered, blocks, labels)
         edge = check_surface(ordered, blocks, connectivity.edge_face_count)
         normalized = normalize(ordered, connectivity, edge, blocks)
         transform = engine = None

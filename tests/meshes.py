@@ -156,6 +156,16 @@ def moebius_strip(length=11):
     return SurfaceMesh.from_faces(points.transpose(1, 0, 2).reshape(-1, 3), faces)
 
 
+def klein_bottle(rows=6, columns=8):
+    """Return a closed surface of one side: quads, four at each vertex, at random places."""
+    corner = np.arange(rows * columns).reshape(rows, columns)
+    right = np.roll(corner, -1, axis=1)
+    right[:, -1] = corner[-np.arange(rows) % rows, 0]  # the last column meets the first one upside down
+    sides = (corner, right, np.roll(right, -1, axis=0), np.roll(corner, -1, axis=0))
+    points = np.random.default_rng(0).normal(size=(rows * columns, 3))
+    return SurfaceMesh.from_faces(points, np.stack(sides, axis=-1).reshape(-1, 4))
+
+
 def turned_over(mesh, seed=0, share=0.5):
     """Return a mesh with a random share of its faces reversed."""
     rng = np.random.default_rng(seed)

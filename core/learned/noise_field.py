@@ -20,6 +20,7 @@ from ..mesh.checks import check_surface
 from ..mesh.connectivity import connect
 from ..mesh.normalization import normalize
 from ..mesh.surface_mesh import SurfaceMesh
+from ..mesh.winding import wound_alike
 from ..noise.estimate import NoiseEstimate
 
 if TYPE_CHECKING:
@@ -125,6 +126,10 @@ def noise_field(surface: SurfaceMesh, vertices: NDArray[np.floating]) -> NoiseFi
     with blocks:
         edge = check_surface(surface, blocks)
         connectivity = connect(surface, blocks)
+        wound = None if connectivity.is_oriented else wound_alike(surface)
+        if wound is not None:
+            surface = wound.surface
+            connectivity = connect(surface, blocks)
         engine = FaceEngine(surface, connectivity, blocks)
         before = normalize(surface, connectivity, edge, blocks)
         moved = surface.with_vertices(vertices).vertices.astype(np.float64)

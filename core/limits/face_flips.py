@@ -37,7 +37,7 @@ class FaceFlips:
     Normals and areas are those of the original surface; which faces are neighbors is what the mesh that was
     worked on says. A face is *folded* if its normal is at more than a right angle both to that of a face
     across one of its edges and to the sum of the normals, weighted by area, of the faces at its vertices.
-    Where faces do not agree about their orientation nothing counts as folded.
+    Neighbors that do not agree about their orientation, as on a surface of one side, tell nothing.
 
     Areas and volumes are in squared and cubed mean edge lengths.
 
@@ -69,6 +69,10 @@ class FaceFlips:
         # Near the mesh, so that volumes of one far away lose no digits.
         self._origin = surface.vertices[surface.corner_vertex[:1]].astype(np.float64).mean(axis=0)
         self._points = np.empty((3, surface.n_vertices))
+        self._across = welded.connectivity.face_across
+        if not welded.connectivity.is_oriented:
+            self._across = self._across.copy()
+            self._across[welded.connectivity.disagreeing] = -1
         self.before = self._state(surface.vertices) if before is None else before
         self.areas, self.volume, self.is_folded, self.is_degenerate = self.before
         self._is_over = np.zeros(welded.topology.n_faces, bool)
@@ -82,10 +86,9 @@ class FaceFlips:
     def is_bad(self) -> NDArray[np.bool_]:
         """Return which faces are worse than they were, shape (F,): folded, degenerate, or turned over.
 
-        Only faces that nothing can be folded against count as turned over, by more than a right angle: those
-        without a face across an edge, and all where faces do not agree about their orientation. Elsewhere old
-        normals tell nothing: under strong noise they point anywhere, and a fold or a spike that is smoothed
-        out turns its faces.
+        Only faces that nothing can be folded against, as no neighbor agrees with them about the orientation,
+        count as turned over, by more than a right angle. Elsewhere old normals tell nothing: under strong
+        noise they point anywhere, and a fold or a spike that is smoothed out turns its faces.
         """
         bad = self.is_folded & ~self.before.is_folded
         bad |= self.is_degenerate & ~self.before.is_degenerate
@@ -181,20 +184,15 @@ class FaceFlips:
 
     def _counts_as_over(self, faces: NDArray[np.intp]) -> NDArray[np.bool_]:
         """Return which of some faces count as turned over if their normals have turned, shape (n,), bool."""
-        connectivity = self.welded.connectivity
-        if not connectivity.is_oriented:
-            return np.ones(len(faces), bool)
         counts, corner = corners_of(self.welded.topology, faces)
         own = np.repeat(np.arange(len(faces)), counts)
-        return np.bincount(own, connectivity.face_across[corner] >= 0, len(faces)) == 0.0
+        return np.bincount(own, self._across[corner] >= 0, len(faces)) == 0.0
 
     def _folded(
         self, areas: NDArray[np.floating], faces: NDArray[np.intp] | None = None
     ) -> NDArray[np.bool_]:
         """Return which of some faces, by default of all, are folded, shape (n,), bool."""
         n_faces = areas.shape[1] if faces is None else len(faces)
-        if not self.welded.connectivity.is_oriented:
-            return np.zeros(n_faces, bool)
         size = self.welded.topology.common_face_size()
 
         def kernel(start: int, stop: int) -> NDArray[np.bool_]:
@@ -218,7 +216,7 @@ class FaceFlips:
         self, areas: NDArray[np.floating], start: int, stop: int, size: int
     ) -> NDArray[np.bool_]:
         """Do what `_disagrees` does for the faces start to stop, all of them with `size` corners."""
-        across = self.welded.connectivity.face_across[size * start : size * stop].reshape(-1, size)
+        across = self._across[size * start : size * stop].reshape(-1, size)
         own, result = areas[:, start:stop], np.zeros(stop - start, bool)
         for corner in range(size):
             other = np.ascontiguousarray(across[:, corner], np.intp)
@@ -228,7 +226,7 @@ class FaceFlips:
     def _disagrees(self, areas: NDArray[np.floating], faces: NDArray[np.intp]) -> NDArray[np.bool_]:
         """Return which of some faces are at more than a right angle to one across an edge, shape (n,)."""
         counts, corner = corners_of(self.welded.topology, faces)
-        other = self.welded.connectivity.face_across[corner]
+        other = self._across[corner]
         own = np.repeat(np.arange(len(faces)), counts)
         mine = areas.take(faces, axis=1)
         cosine = dots(mine.take(own, axis=1), areas.take(other, axis=1, mode="clip"))

@@ -16,6 +16,7 @@ from ..mesh.locality import Reordering
 from ..mesh.surface_mesh import SurfaceMesh
 from ..mesh.weld import Weld, make_weld
 from ..mesh.welded_mesh import WeldedMesh
+from ..mesh.winding import with_reversed
 from ..precision import as_array
 from ..value_checks import check_kind
 from .region import Region
@@ -81,15 +82,17 @@ class ResolvedRegion:
         Returns
         -------
         WeldedMesh
-            A welded mesh carries the original in its own numbering, any other one itself.
+            A welded mesh carries the original in its own numbering, wound alike, any other one itself.
         """
         topology = self.surface if self.reordering is None else self.reordering.surface
         if self.weld is None:
             return WeldedMesh(topology, topology, connectivity, edge)
-        vertex, face = self.weld.vertex, self.weld.face
+        original, vertex, face = self.original, self.weld.vertex, self.weld.face
         if self.reordering is not None:
             vertex, face = _new_numbers(self.reordering)[vertex], face[self.reordering.face_order]
-        return WeldedMesh(self.original, topology, connectivity, edge, vertex, face)
+            if self.reordering.is_reversed is not None:
+                original = with_reversed(original, face[self.reordering.is_reversed])
+        return WeldedMesh(original, topology, connectivity, edge, vertex, face)
 
     def in_given_order(self, vertices: NDArray[np.floating]) -> NDArray[np.floating]:
         """Return positions of the original surface, shape (N, 3), in the numbering of the original."""

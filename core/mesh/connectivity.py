@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,10 +12,11 @@ from numpy.typing import NDArray
 from ..blocks import Blocks
 from ..errors import MeshError
 from ..value_checks import check_kind
-from .half_edges import find_half_edges, last_corners
+from .half_edges import HalfEdges, find_half_edges, last_corners
 from .ragged import stretches
 from .ring_filling import Rings, fill_rings
 from .surface_mesh import SurfaceMesh
+from .winding import Wound, wound_alike
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,8 +28,9 @@ class Connectivity:
     ring_offset : ndarray, shape (N + 1,), int64
         The one-ring of vertex k is `ring[ring_offset[k]:ring_offset[k + 1]]`.
     ring : ndarray, shape (R,), int32
-        Edge neighbors, in face orientation (counterclockwise seen from outside). A closed ring starts at its
-        lowest-numbered vertex, an open one at the boundary. At non-manifold vertices: ascending, no order.
+        Edge neighbors, in face orientation (counterclockwise seen from outside); where faces disagree about
+        it, in that of most of them, see `winding`. A closed ring starts at its lowest-numbered vertex, an
+        open one at the boundary. At non-manifold vertices: ascending, no order.
     ring_corner : ndarray, shape (R,), int32
         The corner (of vertex k) whose face lies between this ring vertex and the next one; -1 behind the
         last vertex of an open ring and at non-manifold vertices.
@@ -49,8 +51,10 @@ class Connectivity:
     face_across : ndarray, shape (C,), int32
         The face on the other side of each corner's edge; -1 at edges with one face or more than two. The
         faces around face f are `face_across[face_offset[f]:face_offset[f + 1]]`.
-    is_oriented : bool
-        Whether no two faces disagree about the direction of a common edge.
+    disagreeing : ndarray, shape (t,), intp
+        Corners whose edge two faces walk along in the same direction.
+    is_one_sided : bool
+        Whether some do so however faces are turned over, as on a Moebius strip.
     has_quads, has_triangle_pairs : bool
         Whether there is a quad, and whether two triangles share an edge.
     labels : ndarray, shape (N,), int32, or None
@@ -69,7 +73,8 @@ class Connectivity:
     all_quads: NDArray[np.bool_]
     edge_face_count: NDArray[np.int32]
     face_across: NDArray[np.int32]
-    is_oriented: bool
+    disagreeing: NDArray[np.intp]
+    is_one_sided: bool
     has_quads: bool
     has_triangle_pairs: bool
     labels: NDArray[np.int32] | None = None
@@ -78,6 +83,11 @@ class Connectivity:
     def n_vertices(self) -> int:
         """Number of vertices."""
         return len(self.valence)
+
+    @property
+    def is_oriented(self) -> bool:
+        """Whether no two faces disagree about the direction of a common edge."""
+        return not len(self.disagreeing)
 
     @property
     def is_closed(self) -> bool:
@@ -123,6 +133,9 @@ def connect(
     """
     blocks = blocks or Blocks(1)
     half_edges = find_half_edges(surface, blocks)
+    wound = wound_alike(surface, half_edges)
+    if wound is not None:
+        return _as_given(connect(wound.surface, blocks, labels), wound, half_edges)
     n_vertices = surface.n_vertices
     corner_vertex = surface.corner_vertex
     count, edges = half_edges.edge_face_count, surface.edges
@@ -194,11 +207,20 @@ def connect(
         all_quads=all_quads,
         edge_face_count=count,
         face_across=face_across,
-        is_oriented=not len(half_edges.inconsistent),
+        disagreeing=half_edges.inconsistent,
+        is_one_sided=bool(len(half_edges.inconsistent)),  # which nothing can mend, see above
         has_quads=has_quads,
         has_triangle_pairs=has_triangle_pairs,
         labels=labels,
     )
+
+
+def _as_given(found: Connectivity, wound: Wound, half_edges: HalfEdges) -> Connectivity:
+    """Return the neighborhoods of a mesh, from those of the same mesh with some faces reversed."""
+    corner, across = found.ring_corner, np.empty_like(found.face_across)
+    across[wound.side] = found.face_across
+    corner = np.where(corner >= 0, wound.corner.take(corner, mode="clip"), np.int32(-1))
+    return replace(found, ring_corner=corner, face_across=across, disagreeing=half_edges.inconsistent)
 
 
 def check_connectivity(connectivity: Connectivity | None, surface: SurfaceMesh) -> None:

@@ -8,7 +8,7 @@ caches. Renumbering costs as much as a few passes over the mesh and is done for 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from ..blocks import Blocks
 from .ragged import stretches
 from .surface_mesh import SurfaceMesh
+from .winding import wound_alike
 
 SMALLEST = 2**16
 """Meshes with fewer vertices stay in the caches in any order."""
@@ -36,28 +37,43 @@ class Reordering:
     Attributes
     ----------
     surface : SurfaceMesh
-        The same mesh: vertices, faces and edges in another order, the corners
-        of each face in the same.
+        The same mesh: vertices, faces and edges in another order, the corners of each face in the same or
+        all the other way around.
     vertex_order : ndarray, shape (N,), int32
         Vertex k of `surface` is vertex `vertex_order[k]` of the original.
     face_order : ndarray, shape (F,), int32
         Face f of `surface` is face `face_order[f]` of the original.
+    is_reversed : ndarray, shape (F,), bool, or None
+        Faces of `surface` that walk around their corners the other way, so that neighbors agree; None for
+        none.
     """
 
     surface: SurfaceMesh
     vertex_order: NDArray[np.int32]
     face_order: NDArray[np.int32]
+    is_reversed: NDArray[np.bool_] | None = None
 
     def with_vertices(self, vertices: NDArray[np.floating]) -> Reordering:
         """Return the same numbers for a mesh with other positions, shape (N, 3), in the original order."""
         moved = self.surface.with_vertices(vertices.take(self.vertex_order, axis=0))
-        return Reordering(moved, self.vertex_order, self.face_order)
+        return replace(self, surface=moved)
+
+    def wound_alike(self) -> Reordering:
+        """Return the same with faces that agree about their orientation, see `winding`."""
+        wound = wound_alike(self.surface)
+        return self if wound is None else replace(self, surface=wound.surface, is_reversed=wound.is_reversed)
 
     def vertices_back(self, values: NDArray[Any]) -> NDArray[Any]:
         """Return one value for each vertex, shape (N, ...), in the original order."""
         result = np.empty_like(values)
         result[self.vertex_order] = values
         return result
+
+
+def same_order(surface: SurfaceMesh) -> Reordering:
+    """Return a mesh with the numbers that it has."""
+    vertices, faces = (np.arange(n, dtype=np.int32) for n in (surface.n_vertices, surface.n_faces))
+    return Reordering(surface, vertices, faces)
 
 
 def is_scattered(surface: SurfaceMesh, smallest: int = SMALLEST) -> bool:

@@ -45,8 +45,9 @@ class LatticeLevel:
         Precision to work in.
     bands : ndarray of int, optional
         Bands to compute, the low-pass first; all by default.
-    is_dilated : bool
-        Whether the stencil was found across wider rings, as on coarser levels.
+    are_shifts : bool
+        Whether stencils of regular vertices are shifts of each other. On coarser levels, where they are found
+        across wider rings of a curved surface, they are not.
     """
 
     def __init__(
@@ -56,7 +57,7 @@ class LatticeLevel:
         dtype: DTypeLike,
         blocks: Blocks,
         bands: NDArray[np.intp] | None = None,
-        is_dilated: bool = False,
+        are_shifts: bool = True,
     ) -> None:
         if stencil.n_taps != bank.n_taps:
             raise FrameError(f"The stencil has {stencil.n_taps} taps, but {bank.name} has {bank.n_taps}.")
@@ -80,7 +81,7 @@ class LatticeLevel:
             and bank.is_tight
             and len(bands) == bank.n_bands
             and not stencil.is_irregular.any()
-            and not is_dilated  # on a curved surface dilated stencils are no shifts of each other
+            and are_shifts
         )
         self._incidence = None if stencil.is_vertex_centered else _Incidence(stencil, len(self._rows), dtype)
 

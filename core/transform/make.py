@@ -88,7 +88,9 @@ def make_transform(
     low = surface
     for index in range(levels):
         chosen = make_stencil(low, connectivity, stencil, boundary, blocks, bank, index)
-        level = LatticeLevel(chosen, bank, dtype, blocks, bands, is_dilated=index > 0)
+        # On a surface of one side longer walks turn to the left on one way and to the right on another.
+        are_shifts = index == 0 and (bank.reach == 1 or not connectivity.is_one_sided)
+        level = LatticeLevel(chosen, bank, dtype, blocks, bands, are_shifts=are_shifts)
         if index:
             _check_reached(index, _is_reached(surface, connectivity, bank, index))
         stages.append(level)

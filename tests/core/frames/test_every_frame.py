@@ -19,7 +19,7 @@ from framelet.core import (
 from framelet.core.frames.valence_masks import FAMILIES
 from framelet.core.mesh.connectivity import connect
 from framelet.core.settings.frame_catalog import FRAME_CATALOG
-from meshes import MESHES, faces_of, flipped, noisy, quad_torus, triangle_torus
+from meshes import MESHES, faces_of, flipped, klein_bottle, noisy, quad_torus, triangle_torus, turned_over
 
 SHAPES = {
     "triangle torus": lambda: triangle_torus(6, 8),
@@ -53,6 +53,15 @@ def test_the_papers_frames_are_tight_where_the_mesh_is_regular(frame, shape):
     assert FrameTransform(SHAPES[shape](), frame).is_tight
     assert not FrameTransform(SHAPES[shape](), frame, 2).is_tight
     assert not FrameTransform(SHAPES["mixed sheet"](), frame).is_tight
+
+
+@pytest.mark.parametrize("frame", ["LINEAR_SPLINE", "B_SPLINE_4", "B_SPLINE_6"])
+def test_wide_frames_are_tight_where_faces_can_agree(frame, rng):
+    """Around a surface of one side some walks turn to the left and some to the right."""
+    turned = turned_over(quad_torus(12, 14), seed=1, share=0.2)
+    for mesh, is_tight in ((turned, True), (klein_bottle(12, 14), frame == "LINEAR_SPLINE")):
+        assert FrameTransform(mesh, frame).is_tight == is_tight
+        check_frame(mesh, frame, rng=rng)
 
 
 def test_a_bank_of_ones_own_passes(rng):
