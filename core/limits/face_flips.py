@@ -18,6 +18,9 @@ from ..mesh.welded_mesh import WeldedMesh
 DEGENERATE = 1e-6
 """Area up to which a face counts as degenerate."""
 
+NOWHERE = 1e-6
+"""Share of the areas around a face below which their sum is rounding."""
+
 FACES_AT_ONCE = 4096
 """Faces in a block, so that what a kernel holds of them stays in the cache."""
 
@@ -207,7 +210,7 @@ class FaceFlips:
         def look_around(start: int, stop: int) -> None:
             part = some[start:stop]
             wanted = part if faces is None else faces[part]
-            folded[part] = dots(areas[:, wanted], self._around(areas, wanted)) < 0.0
+            folded[part] = self._opposes_around(areas, wanted)
 
         self._blocks.run(look_around, len(some))
         return folded
@@ -234,8 +237,11 @@ class FaceFlips:
         result[own[(cosine < 0.0) & (other >= 0)]] = True
         return result
 
-    def _around(self, areas: NDArray[np.floating], faces: NDArray[np.intp]) -> NDArray[np.float64]:
-        """Return the sums of the vector areas around the corners of some faces, shape (3, n)."""
+    def _opposes_around(self, areas: NDArray[np.floating], faces: NDArray[np.intp]) -> NDArray[np.bool_]:
+        """Return which of some faces are at more than a right angle to the sum of those at their corners.
+
+        Where these cancel out, as a face and its copy that is turned over, the sum points nowhere.
+        """
         topology = self.welded.topology
         counts, corner = corners_of(topology, faces)
         wanted = topology.corner_vertex[corner]
@@ -245,8 +251,10 @@ class FaceFlips:
         near = corners_around(topology, self.welded.connectivity, vertices)
         place, face = number[topology.corner_vertex[near]], face_of(topology, near)
         own = np.repeat(np.arange(len(faces)), counts)
-        sums = [np.bincount(place, row[face], len(vertices)) for row in areas]
-        return np.stack([np.bincount(own, row[number[wanted]], len(faces)) for row in sums])
+        there, mine = areas[:, face], areas[:, faces].astype(np.float64)
+        sums = [np.bincount(place, row, len(vertices)) for row in (*there, np.sqrt(dots(there, there)))]
+        sums = [np.bincount(own, row[number[wanted]], len(faces)) for row in sums]
+        return dots(mine, np.stack(sums[:3])) < -NOWHERE * sums[3] * np.sqrt(dots(mine, mine))
 
 
 def _degenerate(areas: NDArray[np.float64]) -> NDArray[np.bool_]:

@@ -134,8 +134,16 @@ def connect(
     blocks = blocks or Blocks(1)
     half_edges = find_half_edges(surface, blocks)
     wound = wound_alike(surface, half_edges)
-    if wound is not None:
-        return _as_given(connect(wound.surface, blocks, labels), wound, half_edges)
+    if wound is None:
+        return _connected(surface, half_edges, blocks, labels)
+    found = _connected(wound.surface, find_half_edges(wound.surface, blocks), blocks, labels)
+    return _as_given(found, wound, half_edges)
+
+
+def _connected(
+    surface: SurfaceMesh, half_edges: HalfEdges, blocks: Blocks, labels: NDArray[np.int32] | None
+) -> Connectivity:
+    """Find the neighborhoods of a mesh whose faces agree as far as they can."""
     n_vertices = surface.n_vertices
     corner_vertex = surface.corner_vertex
     count, edges = half_edges.edge_face_count, surface.edges
@@ -208,7 +216,7 @@ def connect(
         edge_face_count=count,
         face_across=face_across,
         disagreeing=half_edges.inconsistent,
-        is_one_sided=bool(len(half_edges.inconsistent)),  # which nothing can mend, see above
+        is_one_sided=bool(len(half_edges.inconsistent)),
         has_quads=has_quads,
         has_triangle_pairs=has_triangle_pairs,
         labels=labels,

@@ -42,7 +42,8 @@ def wound_alike(surface: SurfaceMesh, half_edges: HalfEdges | None = None) -> Wo
     """Reverse faces so that neighbors run along their common edge in opposite directions.
 
     In each part that hangs together by edges with two faces, most faces stay as they are. On a surface of one
-    side, as a Moebius strip, some neighbors disagree whatever is done.
+    side, as a Moebius strip, some neighbors disagree whatever is done; there all faces stay if not fewer
+    would.
 
     Parameters
     ----------
@@ -103,8 +104,8 @@ def _reversed_faces(surface: SurfaceMesh, half_edges: HalfEdges) -> NDArray[np.b
     """
     corner = np.flatnonzero(half_edges.partner > np.arange(surface.n_corners))
     face = surface.face_of_corner()
-    first, second = face[corner], face[half_edges.partner[corner]]
-    differs = half_edges.is_inconsistent[corner]
+    pairs = face[corner], face[half_edges.partner[corner]], half_edges.is_inconsistent[corner]
+    first, second, differs = pairs
     label = np.arange(surface.n_faces)
     turned = np.zeros(surface.n_faces, bool)
     while True:
@@ -128,4 +129,8 @@ def _reversed_faces(surface: SurfaceMesh, half_edges: HalfEdges) -> NDArray[np.b
             label = above
     n_faces = np.bincount(label, minlength=surface.n_faces)
     n_turned = np.bincount(label, turned, surface.n_faces)
-    return turned ^ (2 * n_turned > n_faces)[label]
+    turned ^= (2 * n_turned > n_faces)[label]
+    first, second, before = pairs
+    after = before ^ turned[first] ^ turned[second]
+    n_before, n_after = (np.bincount(label[first], count, surface.n_faces) for count in (before, after))
+    return turned & (n_after < n_before)[label]
