@@ -10,6 +10,7 @@ import signal
 import subprocess
 import sys
 import time
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -286,6 +287,26 @@ def test_a_full_disk_keeps_the_only_copy(command, source, monkeypatch):
     assert source.read_bytes() == before and names(source.parent) == ["in.ply"]
 
 
+@contextmanager
+def as_handled(number, action):
+    """Start processes with an action for a signal, which they inherit: `nohup` has hangups ignored."""
+    before = signal.signal(number, action)
+    try:
+        yield
+    finally:
+        signal.signal(number, before)
+
+
+@pytest.mark.skipif(os.name == "nt", reason="signals of Unix")
+def test_a_hangup_that_is_ignored_ends_nothing(source, tmp_path):
+    with as_handled(signal.SIGHUP, signal.SIG_IGN):
+        process = start("denoise", source, tmp_path / "out.ply", *QUICK)
+    process.stdout.readline()
+    process.send_signal(signal.SIGHUP)
+    _out, err = process.communicate(timeout=60)
+    assert (process.returncode, err) == (0, b"") and (tmp_path / "out.ply").exists()
+
+
 @pytest.mark.skipif(os.name == "nt", reason="signals of Unix")
 @pytest.mark.parametrize(
     ("number", "code"), [(signal.SIGTERM, 143), (signal.SIGINT, 130), (signal.SIGHUP, 129)]
@@ -298,7 +319,9 @@ def test_signals_clean_up(tmp_path, number, code):
         (b"v %f %f %f\n" * len(points)) % tuple(points.ravel().tolist())
         + (b"f %d %d %d\n" * len(faces)) % tuple((faces + 1).ravel().tolist())
     )
-    process = start("denoise", source, tmp_path / "out.obj", "--report", tmp_path / "r.json", "--passes", "6")
+    words = ["denoise", source, tmp_path / "out.obj", "--report", tmp_path / "r.json", "--passes", "6"]
+    with as_handled(number, signal.SIG_DFL):
+        process = start(*words)
     assert process.stdout.readline().startswith(b"Read ")
     time.sleep(0.3)
     process.send_signal(number)
