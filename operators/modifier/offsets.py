@@ -12,7 +12,7 @@ from . import attributes
 from .inputs import get_input
 from .node_groups import INVERT, MASK, ON
 from .recipes import DISPLACEMENT, EQUALIZER, OURS, recipe_of
-from .stack import detach, find_modifier
+from .stack import detach, find_modifier, find_modifiers
 
 if TYPE_CHECKING:
     import bpy
@@ -35,7 +35,7 @@ def has_traces(mesh: bpy.types.Mesh) -> bool:
 
 
 def offset_of(obj: bpy.types.Object, kind: str) -> NDArray[np.float32] | None:
-    """Return what a modifier adds to the vertices of an object now, shape (N, 3); None if there is none.
+    """Return what a modifier and its copies add to the vertices of an object now, (N, 3); None without one.
 
     Raises
     ------
@@ -45,17 +45,17 @@ def offset_of(obj: bpy.types.Object, kind: str) -> NDArray[np.float32] | None:
     """
     import numpy as np
 
-    modifier = find_modifier(obj, kind)
-    if modifier is None:
-        return None
-    with np.errstate(invalid="ignore", over="ignore"):
-        offset = _offset(obj, modifier)
-    if not np.isfinite(offset).all():
-        raise ValueError(
-            f"The modifier ‘{modifier.name}’ of ‘{obj.name}’ moves vertices by what is not a finite number; "
-            "look at its values and its mask, or run it again."
-        )
-    return offset
+    total: NDArray[np.float32] | None = None
+    for modifier in find_modifiers(obj, kind):
+        with np.errstate(invalid="ignore", over="ignore"):
+            offset = _offset(obj, modifier)
+            total = offset if total is None else total + offset
+        if not np.isfinite(total).all():
+            raise ValueError(
+                f"The modifier ‘{modifier.name}’ of ‘{obj.name}’ moves vertices by what is not a finite "
+                "number; look at its values and its mask, or run it again."
+            )
+    return total
 
 
 def _offset(obj: bpy.types.Object, modifier: bpy.types.Modifier) -> NDArray[np.float32]:

@@ -24,9 +24,14 @@ FIRST = ("MULTIRES", "SOFT_BODY")
 
 def find_modifier(obj: bpy.types.Object | None, kind: str) -> bpy.types.Modifier | None:
     """Return the first modifier of a kind, a group's kind up to its first space; None if there is none."""
+    return next(iter(find_modifiers(obj, kind)), None)
+
+
+def find_modifiers(obj: bpy.types.Object | None, kind: str) -> list[bpy.types.Modifier]:
+    """Return all modifiers of a kind: one and its copies."""
     if obj is None or obj.type != "MESH":
-        return None
-    return next((item for item in obj.modifiers if _kind(item).partition(" ")[0] == kind), None)
+        return []
+    return [item for item in obj.modifiers if _kind(item).partition(" ")[0] == kind]
 
 
 def attach(

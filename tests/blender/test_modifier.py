@@ -60,6 +60,18 @@ def test_the_mesh_stays_and_the_modifier_shows_the_result(pair):
     assert np.array_equal(before + offset_of(obj, DISPLACEMENT), shown(obj))
 
 
+def test_a_modifier_and_its_copy_are_applied_as_they_show(pair):
+    obj, before, after = pair
+    with bpy.context.temp_override(object=obj):
+        bpy.ops.object.modifier_copy(modifier=find_modifier(obj, DISPLACEMENT).name)
+    set_input(find_modifier(obj, DISPLACEMENT), "Amount", 0.5)
+    both = shown(obj)
+    assert np.allclose(both, before + 1.5 * (after - before), atol=1e-6)
+    bpy.ops.object.framelet_apply_modifier()
+    assert np.allclose(read(obj), both, atol=1e-6)
+    assert_no_trace(obj)
+
+
 @pytest.mark.parametrize("amount", [0.0, 0.3, 2.0])
 def test_the_amount_is_linear_and_can_be_keyed(pair, amount):
     obj, before, after = pair
