@@ -15,7 +15,7 @@ from .errors import SettingError
 from .frames import FilterBank
 from .limits.constraints import find_constraints
 from .mesh.checks import check_surface
-from .mesh.connectivity import Connectivity, check_connectivity, connect
+from .mesh.connectivity import Connectivity, check_connectivity, connect_agreeing
 from .mesh.normalization import displaced, normalize
 from .mesh.surface_mesh import SurfaceMesh
 from .precision import as_array
@@ -143,7 +143,8 @@ class Equalizer:
         self._blocks = Blocks(threads, block_size)
         with self._blocks as blocks:
             check_connectivity(connectivity, surface)
-            connectivity = connectivity or connect(surface, blocks)
+            if connectivity is None or not connectivity.is_oriented:
+                surface, connectivity, _ = connect_agreeing(surface, blocks)
             normalized = normalize(surface, connectivity, self._edge)
             transform = make_transform(
                 surface.with_vertices(normalized),

@@ -22,7 +22,7 @@ from .limits.lines import find_lines, smoothing_of
 from .limits.resolved_region import ResolvedRegion
 from .limits.straight_borders import find_curves, straightened
 from .mesh.checks import check_mesh, check_positions, check_surface
-from .mesh.connectivity import Connectivity, check_connectivity, connect
+from .mesh.connectivity import Connectivity, check_connectivity, connect_agreeing
 from .mesh.geometry import coordinate_rows
 from .mesh.locality import Reordering, is_scattered, reorder, same_order, spatial_order
 from .mesh.normalization import normalize
@@ -276,13 +276,11 @@ def prepare_again(
             reordering = reorder(surface, spatial_order(surface.vertices), blocks)
         labels = None if reordering is None else reordering.vertex_order
         ordered = surface if reordering is None else reordering.surface
-        if connectivity is None:
-            connectivity = connect(ordered, blocks, labels)
-        if previous is None and not connectivity.is_oriented:
-            wound = (reordering or same_order(surface)).wound_alike()
-            if wound.is_reversed is not None:
-                reordering, ordered = wound, wound.surface
-                connectivity = connect(ordered, blocks, labels)
+        if connectivity is None or (previous is None and not connectivity.is_oriented):
+            agreeing, connectivity, is_reversed = connect_agreeing(ordered, blocks, labels)
+            if is_reversed is not None:
+                reordering = (reordering or same_order(surface)).with_reversed(agreeing, is_reversed)
+                ordered = agreeing
         edge = check_surface(ordered, blocks, connectivity.edge_face_count)
         normalized = normalize(ordered, connectivity, edge, blocks)
         transform = engine = None

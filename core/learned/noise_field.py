@@ -17,10 +17,9 @@ from numpy.typing import NDArray
 
 from ..blocks import Blocks
 from ..mesh.checks import check_surface
-from ..mesh.connectivity import connect
+from ..mesh.connectivity import connect_agreeing
 from ..mesh.normalization import normalize
 from ..mesh.surface_mesh import SurfaceMesh
-from ..mesh.winding import wound_alike
 from ..noise.estimate import NoiseEstimate
 
 if TYPE_CHECKING:
@@ -125,11 +124,7 @@ def noise_field(surface: SurfaceMesh, vertices: NDArray[np.floating]) -> NoiseFi
     blocks = Blocks()
     with blocks:
         edge = check_surface(surface, blocks)
-        connectivity = connect(surface, blocks)
-        wound = None if connectivity.is_oriented else wound_alike(surface)
-        if wound is not None:
-            surface = wound.surface
-            connectivity = connect(surface, blocks)
+        surface, connectivity, _ = connect_agreeing(surface, blocks)
         engine = FaceEngine(surface, connectivity, blocks)
         before = normalize(surface, connectivity, edge, blocks)
         moved = surface.with_vertices(vertices).vertices.astype(np.float64)

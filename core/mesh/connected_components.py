@@ -29,7 +29,8 @@ def connected_components(
         if not len(apart):
             break
         first, second, low, high = first[apart], second[apart], low[apart], high[apart]
-        label[np.maximum(low, high)] = np.minimum(low, high)
+        # The lowest of those that ask: else a star would be joined by one of its arms in a round.
+        np.minimum.at(label, np.maximum(low, high), np.minimum(low, high))
         while True:
             above = label.take(label)
             if np.array_equal(above, label):

@@ -140,6 +140,29 @@ def connect(
     return _as_given(found, wound, half_edges)
 
 
+def connect_agreeing(
+    surface: SurfaceMesh, blocks: Blocks | None = None, labels: NDArray[np.int32] | None = None
+) -> tuple[SurfaceMesh, Connectivity, NDArray[np.bool_] | None]:
+    """Turn faces back where they disagree about their orientation, and find the neighborhoods then.
+
+    Returns
+    -------
+    SurfaceMesh
+        The mesh, with reversed faces where `wound_alike` says so.
+    Connectivity
+        Its neighborhoods.
+    ndarray, shape (F,), bool, or None
+        Which faces are reversed; None for none.
+    """
+    blocks = blocks or Blocks(1)
+    half_edges, is_reversed = find_half_edges(surface, blocks), None
+    wound = wound_alike(surface, half_edges)
+    if wound is not None:
+        surface, is_reversed = wound.surface, wound.is_reversed
+        half_edges = find_half_edges(surface, blocks)
+    return surface, _connected(surface, half_edges, blocks, labels), is_reversed
+
+
 def _connected(
     surface: SurfaceMesh, half_edges: HalfEdges, blocks: Blocks, labels: NDArray[np.int32] | None
 ) -> Connectivity:

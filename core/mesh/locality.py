@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 from ..blocks import Blocks
 from .ragged import stretches
 from .surface_mesh import SurfaceMesh
-from .winding import wound_alike
 
 SMALLEST = 2**16
 """Meshes with fewer vertices stay in the caches in any order."""
@@ -58,10 +57,9 @@ class Reordering:
         moved = self.surface.with_vertices(vertices.take(self.vertex_order, axis=0))
         return replace(self, surface=moved)
 
-    def wound_alike(self) -> Reordering:
-        """Return the same with faces that agree about their orientation, see `winding`."""
-        wound = wound_alike(self.surface)
-        return self if wound is None else replace(self, surface=wound.surface, is_reversed=wound.is_reversed)
+    def with_reversed(self, surface: SurfaceMesh, is_reversed: NDArray[np.bool_]) -> Reordering:
+        """Return the same numbers for a mesh some of whose faces are reversed; see `connect_agreeing`."""
+        return replace(self, surface=surface, is_reversed=is_reversed)
 
     def vertices_back(self, values: NDArray[Any]) -> NDArray[Any]:
         """Return one value for each vertex, shape (N, ...), in the original order."""

@@ -114,12 +114,12 @@ def _reversed_faces(surface: SurfaceMesh, half_edges: HalfEdges) -> NDArray[np.b
         if not len(apart):
             break
         first, second, differs = first[apart], second[apart], differs[apart]
-        one, two = one[apart], two[apart]
-        high = np.maximum(one, two)
+        low, high = np.minimum(one[apart], two[apart]), np.maximum(one[apart], two[apart])
         chosen = np.full(surface.n_faces, -1)
-        chosen[high] = np.arange(len(high))  # of those that ask for the same label the last one
+        falling = np.argsort(-low, kind="stable")
+        chosen[high[falling]] = falling  # of those that ask for the same label the lowest one, which is last
         chosen = chosen[chosen >= 0]
-        label[high[chosen]] = np.minimum(one, two)[chosen]
+        label[high[chosen]] = low[chosen]
         turned[high[chosen]] = (turned[first] ^ turned[second] ^ differs)[chosen]
         while True:
             above = label[label]

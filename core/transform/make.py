@@ -12,7 +12,7 @@ from ..blocks import Blocks
 from ..errors import FrameError
 from ..frames import BANKS, FilterBank
 from ..frames.valence_masks import FAMILIES
-from ..mesh.connectivity import Connectivity, check_connectivity, connect
+from ..mesh.connectivity import Connectivity, check_connectivity, connect_agreeing
 from ..mesh.distance_rings import distance_rings, edge_adjacency, face_adjacency
 from ..mesh.surface_mesh import SurfaceMesh
 from ..precision import as_precision
@@ -69,7 +69,8 @@ def make_transform(
     dtype = as_precision(dtype)
     blocks = blocks or Blocks(1)
     check_connectivity(connectivity, surface)
-    connectivity = connectivity or connect(surface, blocks)
+    if connectivity is None:
+        surface, connectivity, _ = connect_agreeing(surface, blocks)
     stencil, boundary = as_identifier(stencil), as_identifier(boundary)
     if not isinstance(frame, FilterBank):
         word: str = as_identifier(frame)

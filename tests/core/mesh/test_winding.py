@@ -2,10 +2,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Faces that are turned over are turned back, in the neighborhoods and in what a run is given."""
 
+from time import process_time
+
 import numpy as np
 import pytest
 from checks import assert_same_bits, lengths
-from framelet.core import PRESETS, Region, SurfaceMesh, connect, denoise, noise_field
+from framelet.core import (
+    PRESETS,
+    FrameTransform,
+    Region,
+    SurfaceMesh,
+    connect,
+    denoise,
+    equalize,
+    noise_field,
+)
 from framelet.core.mesh.geometry import face_area_vectors
 from framelet.core.mesh.winding import with_reversed, wound_alike
 from meshes import (
@@ -126,6 +137,34 @@ def test_welded_meshes_are_wound_alike_too(rng):
         n_damped.append(result.report.damped_vertices)
     assert lengths(vertices[0] - vertices[1]).max() < 1e-4
     assert n_damped[0] == n_damped[1]
+
+
+@pytest.mark.parametrize("frame", ["AUTO", "ADAPTIVE"])
+@pytest.mark.parametrize("name", ["border", "mixed"])
+def test_bands_do_not_depend_on_how_faces_are_wound(name, frame, rng):
+    mesh = noisy(ORIENTABLE[name](), rng, 0.05)
+    turned = turned_over(mesh, seed=4, share=0.2)
+    one, two = (equalize(each, [0.0, 2.0], frame=frame) for each in (mesh, turned))
+    assert lengths(one - two).max() < 1e-5
+    low, other = (FrameTransform(each, frame, 2).analyze(each.vertices).low for each in (mesh, turned))
+    assert lengths(low - other).max() < 1e-12
+
+
+def test_a_large_face_that_touches_many_is_no_work():
+    """Each petal of a star, the face in its middle last: joined one by one they took four seconds."""
+    n = 20_000
+    hub, tips = np.arange(n), np.arange(n, 2 * n)
+    petals = np.stack((np.roll(hub, -1), hub, tips), axis=1)
+    petals[0] = petals[0, ::-1]
+    star = SurfaceMesh.from_faces(
+        np.zeros((2 * n, 3)),
+        np.concatenate((petals.ravel(), hub)),
+        offsets=np.concatenate((np.arange(0, 3 * n + 1, 3), [4 * n])),
+    )
+    began = process_time()
+    wound = wound_alike(star)
+    assert process_time() - began < 1.0
+    assert wound.is_reversed.tolist() == [True] + n * [False]
 
 
 def test_the_noise_that_was_taken_away_does_not_depend_on_it(rng):
