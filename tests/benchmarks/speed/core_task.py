@@ -24,7 +24,7 @@ STAGES = (
     (prepared_module, "check_surface", "check"),
     (prepared_module, "spatial_order", "reorder"),
     (prepared_module, "reorder", "reorder"),
-    (prepared_module, "connect", "connectivity"),
+    (prepared_module, "connect_agreeing", "connectivity"),
     (prepared_module, "normalize", "normalize"),
     (prepared_module, "make_transform", "stencils"),
     (prepared_module, "FaceEngine", "stencils"),
