@@ -47,9 +47,9 @@ def test_elsewhere_esc_and_right_clicks_are_no_matter(long_run):
     for button in ("RIGHTMOUSE", "ESC", "ESC"):
         session.click((x + width // 2, y + height // 2), button, seconds=0.5)
         assert is_running(session)
-    sidebar = session.middle("UI")
-    session.click(sidebar, "RIGHTMOUSE", seconds=0.5)
-    session.key("ESC", 0.5)  # closes the menu
+    button = find(session, "object.framelet_cancel", across=0.83)
+    session.click(button, "RIGHTMOUSE", seconds=0.5)
+    session.key("ESC", 0.5)  # closes the menu of the button
     assert is_running(session)
 
 
