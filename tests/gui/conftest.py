@@ -12,7 +12,7 @@ from blender_window.programs import ROOT, NoWindow, find_programs
 from blender_window.session import Session
 from blender_window.sidebar import add_ball, start_fresh
 
-SIZES = {1: (1280, 800), 2: (1920, 1200)}
+SIZES = {1: (1280, 800), 2: (1920, 1440)}
 IS_REQUIRED = os.environ.get("FRAMELET_REQUIRE_GUI") == "1"
 PICTURES = os.environ.get("FRAMELET_PICTURES")
 
