@@ -279,7 +279,8 @@ def prepare_again(
         if connectivity is None or (previous is None and not connectivity.is_oriented):
             agreeing, connectivity, is_reversed = connect_agreeing(ordered, blocks, labels)
             if is_reversed is not None:
-                reordering = (reordering or same_order(surface)).with_reversed(agreeing, is_reversed)
+                reordering = reordering or same_order(surface)
+                reordering = replace(reordering, surface=agreeing, is_reversed=is_reversed)
                 ordered = agreeing
         edge = check_surface(ordered, blocks, connectivity.edge_face_count)
         normalized = normalize(ordered, connectivity, edge, blocks)

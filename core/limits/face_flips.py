@@ -40,8 +40,8 @@ class FaceFlips:
     Normals and areas are those of the surface that moves, its faces turned back where they disagree; which
     faces are neighbors is what the mesh that was worked on says. A face is *folded* if its normal is at more
     than a right angle both to that of a face across one of its edges and to the sum of the normals, weighted
-    by area, of the faces at its vertices.
-    Neighbors that do not agree about their orientation, as on a surface of one side, tell nothing.
+    by area, of the faces at its vertices. Neighbors that do not agree about their orientation, as on a
+    surface of one side, tell nothing.
 
     Areas and volumes are in squared and cubed mean edge lengths.
 

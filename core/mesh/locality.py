@@ -57,10 +57,6 @@ class Reordering:
         moved = self.surface.with_vertices(vertices.take(self.vertex_order, axis=0))
         return replace(self, surface=moved)
 
-    def with_reversed(self, surface: SurfaceMesh, is_reversed: NDArray[np.bool_]) -> Reordering:
-        """Return the same numbers for a mesh some of whose faces are reversed; see `connect_agreeing`."""
-        return replace(self, surface=surface, is_reversed=is_reversed)
-
     def vertices_back(self, values: NDArray[Any]) -> NDArray[Any]:
         """Return one value for each vertex, shape (N, ...), in the original order."""
         result = np.empty_like(values)
